@@ -1,0 +1,3 @@
+//! The `accel-bench` command.
+
+fn main() {}

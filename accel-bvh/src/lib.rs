@@ -1,0 +1,1 @@
+//! Bounding volume hierarchies built by the surface area heuristic.

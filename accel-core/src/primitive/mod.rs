@@ -1,0 +1,5 @@
+//! What a structure is built over.
+
+mod triangle;
+
+pub use triangle::Triangle;

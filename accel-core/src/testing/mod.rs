@@ -1,0 +1,2 @@
+//! Scene families, rays and the agreement check that hold every structure to
+//! the answers of brute force.
