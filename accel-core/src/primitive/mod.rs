@@ -1,5 +1,106 @@
 //! What a structure is built over.
 
+mod mesh;
+mod sphere;
+mod surface;
 mod triangle;
+pub(crate) mod watertight;
 
+use glam::Vec3;
+
+use crate::geometry::{Aabb, DAabb, Plane, Side};
+use crate::layout::LeafStorage;
+use crate::query::Hit;
+use crate::ray::PreparedRay;
+
+pub use mesh::{MeshError, triangles_of_mesh};
+pub use sphere::Sphere;
+pub use surface::{Face, SurfacePoint};
 pub use triangle::Triangle;
+
+/// Where a ray meets a primitive, before the shared leaf loop has gated it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intersection {
+    /// The ray parameter, in lengths of the ray's direction.
+    pub t: f32,
+    /// First surface coordinate.
+    pub u: f32,
+    /// Second surface coordinate.
+    pub v: f32,
+}
+
+/// Anything that a ray can hit: implement it to build every structure over a
+/// type of your own.
+///
+/// Whether and where a ray hits must be a function of the ray and the primitive
+/// alone, and the same at every call: then every structure gives the same
+/// answers. See the [crate] documentation for an example.
+pub trait Primitive: Clone + Send + Sync {
+    /// How leaves hold primitives of this type. Copies in leaf order,
+    /// [`LeafOrdered<Self>`](crate::layout::LeafOrdered), suit small types;
+    /// [`Indexed<Self>`](crate::layout::Indexed) keeps one copy of each
+    /// primitive and suits large ones.
+    type Storage: LeafStorage<Self>;
+
+    /// The smallest box around the primitive, or one that is not
+    /// [valid](Aabb::is_valid) if it has none: such a primitive is invalid and
+    /// is rejected or skipped, as the builder is told.
+    fn bounds(&self) -> Aabb;
+
+    /// The first intersection with `t >= ray.t_min()`, if there is any. A
+    /// result with a NaN or infinite `t`, `u` or `v` counts as a miss.
+    fn intersect(&self, ray: &PreparedRay) -> Option<Intersection>;
+
+    /// The unit vector orthogonal to the surface at `point`, where `hit` lies,
+    /// towards its front; zero where there is none.
+    fn geometric_normal(&self, hit: &Hit, point: Vec3) -> Vec3;
+
+    /// The point of a hit and how far each coordinate may be off: the exact
+    /// surface is within the error of the point.
+    fn hit_point(&self, ray: &PreparedRay, hit: &Hit) -> (Vec3, Vec3) {
+        surface::point_along(ray, hit.t, &self.bounds())
+    }
+}
+
+/// A primitive whose part inside a box can be bounded: needed by structures
+/// that split references (SBVH, kd-tree).
+pub trait Clip: Primitive {
+    /// Bounds, in double precision and without any pad, of the part of the
+    /// primitive inside `cell`; `None` if no part is inside.
+    ///
+    /// The default, the common part of both boxes, is right for every type; a
+    /// tighter answer makes better trees.
+    fn clip(&self, cell: &Aabb) -> Option<DAabb> {
+        let common = self.bounds().intersection(cell);
+        (!common.is_empty()).then(|| common.into())
+    }
+}
+
+/// A primitive that planes of any orientation can classify: needed by the BSP
+/// tree.
+pub trait Polygonal: Primitive {
+    /// The corners of a convex hull that contains the primitive: for a convex
+    /// polygon its corners in order.
+    fn vertices(&self) -> impl Iterator<Item = Vec3>;
+
+    /// Planes worth splitting a cell by that follow from this primitive alone,
+    /// besides those tangent to its box. For a triangle: its face plane and the
+    /// three planes through its edges orthogonal to it (Ize, Wald and Parker
+    /// 2008, section 3.4).
+    fn candidate_planes(&self) -> impl Iterator<Item = Plane>;
+
+    /// The smallest and largest signed distance of the primitive's points from
+    /// `plane`.
+    fn signed_range(&self, plane: &Plane) -> (f64, f64) {
+        let unbounded = (f64::INFINITY, f64::NEG_INFINITY);
+        self.vertices()
+            .map(|vertex| plane.signed_distance(vertex))
+            .fold(unbounded, |(low, high), s| (low.min(s), high.max(s)))
+    }
+
+    /// On which side of `plane` the primitive lies, within `epsilon`.
+    fn side_of(&self, plane: &Plane, epsilon: f64) -> Side {
+        let (smallest, largest) = self.signed_range(plane);
+        Side::of_range(smallest, largest, epsilon)
+    }
+}

@@ -1,0 +1,37 @@
+//! What builders share: settings, budgets, progress, and the recursion.
+
+mod budget;
+mod observer;
+mod recursion;
+mod tree;
+
+pub use budget::{BuildBudget, median_depth};
+pub use observer::BuildObserver;
+pub use recursion::{Division, TopDown, build_top_down};
+pub use tree::{BuildNode, BuildTree, Cursor};
+
+/// What to do with primitives whose bounds are not finite.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InvalidPrimitives {
+    /// Refuse to build, naming the first of them.
+    #[default]
+    Reject,
+    /// Leave them out: they are never hit, all others keep their ids, and the
+    /// structure tells how many were left out.
+    Skip,
+}
+
+/// Runs both closures, in parallel where the feature `parallel` is on.
+pub fn join<A: Send, B: Send>(
+    left: impl FnOnce() -> A + Send,
+    right: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    #[cfg(feature = "parallel")]
+    {
+        rayon::join(left, right)
+    }
+    #[cfg(not(feature = "parallel"))]
+    {
+        (left(), right())
+    }
+}

@@ -1,0 +1,278 @@
+//! A ray made ready for traversal: everything that depends on it alone,
+//! computed once.
+
+use glam::Vec3;
+
+use super::Ray;
+use crate::geometry::{Aabb, Axis, rounding::gamma};
+
+/// A ray with reciprocals and shear, ready for box tests and the triangle
+/// kernel.
+///
+/// It depends on the ray alone, never on a scene: the origin is not moved.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedRay {
+    origin: Vec3,
+    direction: Vec3,
+    reciprocal: Vec3,
+    t_min: f32,
+    t_max: f32,
+    shear: Shear,
+}
+
+/// The shear that carries the ray's direction onto its main axis (Woop,
+/// Benthin and Wald 2013, section 3).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shear {
+    /// The axis of the direction's largest component.
+    pub axis: Axis,
+    /// How far the two other components (in cyclic order) lean per unit along
+    /// `axis`.
+    pub x: f32,
+    /// See `x`.
+    pub y: f32,
+    /// The direction's component along `axis`.
+    pub along: f32,
+}
+
+/// The part of a ray inside a box: `near` at most `far` unless it misses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Where the ray enters, in ray parameter `t`.
+    pub near: f32,
+    /// Where it leaves.
+    pub far: f32,
+}
+
+impl Interval {
+    /// Whether the ray misses the box.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        // Written so that NaN, which no slab produces, would count as a miss.
+        !matches!(
+            self.near.partial_cmp(&self.far),
+            Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)
+        )
+    }
+}
+
+impl PreparedRay {
+    /// Prepares `ray`; `None` for one that can hit nothing: a NaN anywhere, an
+    /// infinite origin or direction, a zero direction, or an empty interval.
+    /// This is the one place where such rays are decided: they miss
+    /// everything and visit no node.
+    #[inline]
+    pub fn new(ray: &impl Ray) -> Option<Self> {
+        let origin = ray.origin();
+        // Adding zero turns -0 into +0: one sign for both zeros.
+        let direction = ray.direction() + Vec3::ZERO;
+        let (t_min, t_max) = (ray.t_min(), ray.t_max());
+        let usable = origin.is_finite() && direction.is_finite() && direction != Vec3::ZERO;
+        if !usable || t_min.is_nan() {
+            return None;
+        }
+        let t_min = if t_min > 0.0 { t_min } else { 0.0 };
+        // False for a NaN bound as well.
+        let has_interval = t_min <= t_max;
+        has_interval.then(|| Self {
+            origin,
+            direction,
+            reciprocal: direction.recip(),
+            t_min,
+            t_max,
+            shear: Shear::new(direction),
+        })
+    }
+
+    /// Where the ray starts.
+    #[inline]
+    pub fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// Its direction, without negative zeros.
+    #[inline]
+    pub fn direction(&self) -> Vec3 {
+        self.direction
+    }
+
+    /// One over the direction, infinite where a component is zero. Its sign is
+    /// the sign to order planes by.
+    #[inline]
+    pub fn reciprocal(&self) -> Vec3 {
+        self.reciprocal
+    }
+
+    /// The smallest `t` of interest, never negative.
+    #[inline]
+    pub fn t_min(&self) -> f32 {
+        self.t_min
+    }
+
+    /// The largest `t` of interest, perhaps infinite.
+    #[inline]
+    pub fn t_max(&self) -> f32 {
+        self.t_max
+    }
+
+    /// Whether the direction is negative on `axis`.
+    #[inline]
+    pub fn is_negative(&self, axis: Axis) -> bool {
+        axis.of(self.reciprocal) < 0.0
+    }
+
+    /// The point at parameter `t`.
+    #[inline]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+
+    #[inline]
+    pub(crate) fn shear(&self) -> &Shear {
+        &self.shear
+    }
+
+    /// The part of the whole line inside `bounds`, widened so that a ray that
+    /// touches the box in exact arithmetic is never lost: the near end by
+    /// 1 - 2 gamma(3), the far end by 1 + 2 gamma(3) (Ize 2013, *Robust BVH Ray
+    /// Traversal*, section 3).
+    ///
+    /// The widening holds in front of the origin, which is all that a query can
+    /// see. Every operation is monotone, so the intervals of nested boxes are
+    /// nested as *computed*.
+    #[inline]
+    pub fn slab(&self, bounds: &Aabb) -> Interval {
+        let mut interval = Interval {
+            near: f32::NEG_INFINITY,
+            far: f32::INFINITY,
+        };
+        for axis in Axis::ALL {
+            let (low, high) = (axis.of(bounds.min), axis.of(bounds.max));
+            let negative = self.is_negative(axis);
+            let (entry, exit) = if negative { (high, low) } else { (low, high) };
+            interval.near = max_or_keep(interval.near, self.plane_distance(axis, entry));
+            interval.far = min_or_keep(interval.far, self.plane_distance(axis, exit));
+        }
+        interval.near *= NEAR_PAD;
+        interval.far *= FAR_PAD;
+        interval
+    }
+
+    /// The parameter at which the ray crosses the plane at `position` on
+    /// `axis`; NaN when it runs inside that plane.
+    #[inline]
+    pub fn plane_distance(&self, axis: Axis, position: f32) -> f32 {
+        (position - axis.of(self.origin)) * axis.of(self.reciprocal)
+    }
+}
+
+impl Shear {
+    #[inline]
+    fn new(direction: Vec3) -> Self {
+        let axis = Axis::largest(direction);
+        let rotated = axis.rotate_last(direction);
+        Self {
+            axis,
+            x: rotated.x / rotated.z,
+            y: rotated.y / rotated.z,
+            along: rotated.z,
+        }
+    }
+}
+
+/// What the near end of a slab interval is multiplied by.
+pub const NEAR_PAD: f32 = 1.0 - 2.0 * gamma(3);
+
+/// What the far end of a slab interval is multiplied by.
+pub const FAR_PAD: f32 = 1.0 + 2.0 * gamma(3);
+
+/// The larger; `current` where `candidate` is NaN, which a ray inside a plane
+/// produces (0 times infinity) and which must not constrain it. The operand
+/// order is that of the hardware instruction.
+#[inline]
+pub fn max_or_keep(current: f32, candidate: f32) -> f32 {
+    if candidate > current {
+        candidate
+    } else {
+        current
+    }
+}
+
+/// The smaller; `current` where `candidate` is NaN.
+#[inline]
+pub fn min_or_keep(current: f32, candidate: f32) -> f32 {
+    if candidate < current {
+        candidate
+    } else {
+        current
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ray::RaySegment;
+
+    fn unit_box() -> Aabb {
+        Aabb::new([0.0; 3], [1.0; 3])
+    }
+
+    #[test]
+    fn rays_that_can_hit_nothing_are_not_prepared() {
+        let good = RaySegment::new([0.0; 3], [1.0, 0.0, 0.0]);
+        assert!(PreparedRay::new(&good).is_some());
+        let nan = f32::NAN;
+        for bad in [
+            RaySegment::new([nan, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            RaySegment::new([f32::INFINITY, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            RaySegment::new([0.0; 3], [1.0, nan, 0.0]),
+            RaySegment::new([0.0; 3], [1.0, f32::NEG_INFINITY, 0.0]),
+            RaySegment::new([0.0; 3], [0.0, -0.0, 0.0]),
+            good.with_interval(nan, 1.0),
+            good.with_interval(0.0, nan),
+            good.with_interval(2.0, 1.0),
+            good.with_interval(0.0, -1.0),
+        ] {
+            assert!(PreparedRay::new(&bad).is_none(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn negative_t_min_counts_as_zero_and_negative_zero_as_positive() {
+        let ray = RaySegment::new([0.0; 3], [-0.0, 1.0, -0.0]).with_interval(-5.0, 3.0);
+        let ray = PreparedRay::new(&ray).unwrap();
+        assert_eq!(ray.t_min(), 0.0);
+        assert_eq!(ray.reciprocal().x, f32::INFINITY);
+        assert!(!ray.is_negative(Axis::X));
+    }
+
+    #[test]
+    fn a_ray_inside_a_face_plane_passes_the_slab() {
+        for (origin, direction) in [
+            ([0.0, 0.5, -1.0], [0.0, 0.0, 1.0]),
+            ([1.0, 1.0, 5.0], [-0.0, 0.0, -1.0]),
+            ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        ] {
+            let ray = PreparedRay::new(&RaySegment::new(origin, direction)).unwrap();
+            assert!(
+                !ray.slab(&unit_box()).is_empty(),
+                "{origin:?} {direction:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_ray_beside_a_slab_misses_it() {
+        let ray = RaySegment::new([1.5, 0.5, -1.0], [0.0, 0.0, 1.0]);
+        let ray = PreparedRay::new(&ray).unwrap();
+        assert!(ray.slab(&unit_box()).is_empty());
+    }
+
+    #[test]
+    fn slab_intervals_enclose_the_exact_ones() {
+        let ray = RaySegment::new([-1.0, 0.3, 0.3], [0.1, 0.01, 0.02]);
+        let interval = PreparedRay::new(&ray).unwrap().slab(&unit_box());
+        assert!(interval.near <= 10.0 && interval.far >= 20.0);
+        assert!(interval.near > 9.999 && interval.far < 20.001);
+    }
+}

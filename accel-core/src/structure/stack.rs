@@ -1,0 +1,75 @@
+//! The stack of nodes that a traversal has put off.
+
+use arrayvec::ArrayVec;
+
+use crate::build::BuildBudget;
+
+/// A node put off, and where the ray enters it.
+#[derive(Clone, Copy, Debug)]
+pub struct StackEntry<N> {
+    /// The node.
+    pub node: N,
+    /// The ray parameter at which the ray enters it.
+    pub near: f32,
+}
+
+/// A stack for depth-first traversal of binary trees, which put off at most one
+/// node per level: it holds as many entries as the deepest tree has levels, so
+/// it never overflows on a tree within [`BuildBudget::DEEPEST`]. It lives in the
+/// frame of the traversal and is not cleared at its start.
+#[derive(Clone, Debug)]
+pub struct TraversalStack<N> {
+    entries: ArrayVec<StackEntry<N>, { BuildBudget::DEEPEST as usize + 8 }>,
+}
+
+impl<N: Copy> TraversalStack<N> {
+    /// An empty stack.
+    #[inline]
+    pub fn new() -> Self {
+        Self {
+            entries: ArrayVec::new(),
+        }
+    }
+
+    /// Puts `node` off.
+    ///
+    /// # Panics
+    /// If the tree is deeper than [`BuildBudget::DEEPEST`].
+    #[inline]
+    pub fn push(&mut self, node: N, near: f32) {
+        self.entries.push(StackEntry { node, near });
+    }
+
+    /// The node put off last that the ray enters no later than `t_max`; those
+    /// entered later are dropped. Strictly later: a hit there could still tie.
+    #[inline]
+    pub fn pop_within(&mut self, t_max: f32) -> Option<N> {
+        loop {
+            let entry = self.entries.pop()?;
+            if entry.near <= t_max {
+                return Some(entry.node);
+            }
+        }
+    }
+}
+
+impl<N: Copy> Default for TraversalStack<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_beyond_the_best_hit_are_dropped_and_ties_kept() {
+        let mut stack = TraversalStack::new();
+        for (node, near) in [(1, 5.0), (2, 3.0), (3, 4.0)] {
+            stack.push(node, near);
+        }
+        assert_eq!(stack.pop_within(3.0), Some(2));
+        assert_eq!(stack.pop_within(4.0), None);
+    }
+}
