@@ -211,12 +211,16 @@ mod tests {
         let ray = RaySegment::new([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]);
         let test = LaneTest::new(&PreparedRay::new(&ray).unwrap());
         let mut vertices = [[[0.0_f32; 8]; 3]; 3];
-        for lane in 0..8 {
-            for (corner, position) in TRIANGLE.iter().enumerate() {
-                let shift = lane as f32 * 10.0;
-                vertices[corner][0][lane] = position[0] + shift;
-                vertices[corner][1][lane] = position[1];
-                vertices[corner][2][lane] = position[2];
+        for (corner, position) in TRIANGLE.iter().enumerate() {
+            for (coordinate, lanes) in vertices[corner].iter_mut().enumerate() {
+                for (lane, value) in lanes.iter_mut().enumerate() {
+                    let shift = if coordinate == 0 {
+                        lane as f32 * 10.0
+                    } else {
+                        0.0
+                    };
+                    *value = position[coordinate] + shift;
+                }
             }
         }
         vertices[1][0][5] = f32::NAN;

@@ -1,6 +1,8 @@
 //! The quick search: references counted into bins, cuts between bins only.
 
 use super::{SplitCandidate, SurfaceAreaHeuristic, keep_better};
+use arrayvec::ArrayVec;
+
 use crate::geometry::{Aabb, Axis};
 use crate::reference::Reference;
 
@@ -74,15 +76,19 @@ impl Bin {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bins {
     mappings: [Option<BinMapping>; 3],
-    bins: [[Bin; MAX_BINS]; 3],
+    bins: [ArrayVec<Bin, MAX_BINS>; 3],
 }
 
 impl Bins {
     /// Empty bins over the range of `centers`, `bins` per axis.
     pub fn new(centers: &Aabb, bins: usize) -> Self {
+        let bins = bins.min(MAX_BINS);
+        // Only as many as are used: clearing all of them would dominate in small
+        // nodes.
+        let empty = || std::iter::repeat_n(Bin::EMPTY, bins).collect();
         Self {
-            mappings: Axis::ALL.map(|axis| BinMapping::new(axis, centers, bins.min(MAX_BINS))),
-            bins: [[Bin::EMPTY; MAX_BINS]; 3],
+            mappings: Axis::ALL.map(|axis| BinMapping::new(axis, centers, bins)),
+            bins: [empty(), empty(), empty()],
         }
     }
 
@@ -119,7 +125,6 @@ impl Bins {
         let mut best = None;
         for (mapping, bins) in self.mappings.iter().zip(&self.bins) {
             if let Some(mapping) = mapping {
-                let bins = &bins[..mapping.bins];
                 cheapest_cut_of_axis(*mapping, bins, parent_area, heuristic, &mut best);
             }
         }
@@ -151,11 +156,10 @@ fn cheapest_cut_of_axis(
     heuristic: &SurfaceAreaHeuristic,
     best: &mut Option<SplitCandidate<BinCut>>,
 ) {
-    let mut right_of = [Bin::EMPTY; MAX_BINS];
-    let mut right = Bin::EMPTY;
-    for (bin, slot) in bins.iter().zip(&mut right_of).rev() {
-        right.merge(bin);
-        *slot = right;
+    let mut right_of: ArrayVec<Bin, MAX_BINS> = bins.iter().copied().collect();
+    for bin in (1..bins.len()).rev() {
+        let after = right_of[bin];
+        right_of[bin - 1].merge(&after);
     }
     let mut left = Bin::EMPTY;
     for first_right in 1..bins.len() {

@@ -3,6 +3,7 @@
 mod dynamic;
 mod packet;
 mod stack;
+mod validation;
 
 use crate::build::join;
 use crate::geometry::Aabb;

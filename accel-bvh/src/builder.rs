@@ -1,0 +1,140 @@
+//! Settings, and the way from primitives to a tree.
+
+use accel_core::build::{BuildTree, build_top_down};
+use accel_core::reference::{Gathered, gather};
+use accel_core::split::binning::MAX_BINS;
+use accel_core::{
+    BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Primitive, SurfaceAreaHeuristic,
+};
+
+use crate::binned::{BinnedSearch, BinnedTask};
+use crate::strategy::NodeRules;
+use crate::sweep::{SweepMemory, SweepSearch};
+use crate::{Bvh, ChildBounds, LeafRule};
+
+/// Builds a [`Bvh`]. All settings have defaults:
+///
+/// ```
+/// use accel_bvh::{BvhBuilder, LeafRule, ObjectSplit, Sphere};
+/// # fn main() -> Result<(), accel_bvh::BuildError> {
+/// let spheres = [Sphere::new([0.0; 3], 1.0), Sphere::new([4.0, 0.0, 0.0], 1.0)];
+/// let builder = BvhBuilder {
+///     object_split: ObjectSplit::FullSweep,
+///     leaf_rule: LeafRule::StopAt(1),
+///     ..BvhBuilder::default()
+/// };
+/// let bvh = builder.build(&spheres)?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BvhBuilder {
+    /// How the best split of a node is searched for.
+    pub object_split: ObjectSplit,
+    /// When a node becomes a leaf.
+    pub leaf_rule: LeafRule,
+    /// The costs of visiting a node and of testing a primitive.
+    pub heuristic: SurfaceAreaHeuristic,
+    /// Whether primitives without finite bounds are refused or left out.
+    pub invalid_primitives: InvalidPrimitives,
+    /// Limits on memory and depth.
+    pub budget: BuildBudget,
+}
+
+/// How the best split of a node is searched for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObjectSplit {
+    /// Every cut in the order of the centres along every axis: the best trees
+    /// (Stich 2009, section 2.1).
+    FullSweep,
+    /// Cuts between bins of equal width along every axis: nearly as good, and
+    /// several times faster to build (Wald 2007).
+    Binned {
+        /// Bins per axis, 2 to 64. Small nodes use fewer.
+        bins: usize,
+    },
+}
+
+impl Default for ObjectSplit {
+    /// Binned, with 32 bins.
+    fn default() -> Self {
+        Self::Binned { bins: 32 }
+    }
+}
+
+impl BvhBuilder {
+    /// Builds the tree of `primitives`; hits name them by their position there.
+    ///
+    /// # Errors
+    /// Any [`BuildError`] but `Cancelled`.
+    pub fn build<P: Primitive>(&self, primitives: &[P]) -> Result<Bvh<P>, BuildError> {
+        self.build_with(primitives, &())
+    }
+
+    /// As [`build`](Self::build), telling `observer` how far it is and stopping
+    /// when told to.
+    ///
+    /// # Errors
+    /// Any [`BuildError`].
+    pub fn build_with<P: Primitive>(
+        &self,
+        primitives: &[P],
+        observer: &dyn BuildObserver,
+    ) -> Result<Bvh<P>, BuildError> {
+        self.validate()?;
+        self.budget
+            .check_bytes(self.working_bytes(primitives.len()))?;
+        let gathered = gather(primitives, self.invalid_primitives)?;
+        let (bounds, skipped) = (gathered.bounds, gathered.skipped);
+        if gathered.references.is_empty() {
+            return Ok(Bvh::empty(primitives, skipped));
+        }
+        let tree = self.build_tree(gathered, observer)?;
+        Bvh::from_build_tree(primitives, &tree, bounds, skipped, &self.budget)
+    }
+
+    fn validate(&self) -> Result<(), BuildError> {
+        self.heuristic.validate()?;
+        self.leaf_rule.validate()?;
+        self.budget.validate()?;
+        match self.object_split {
+            ObjectSplit::Binned { bins } if !(2..=MAX_BINS).contains(&bins) => {
+                Err(BuildError::InvalidSetting {
+                    setting: "bins",
+                    value: bins.to_string(),
+                    allowed: "2 to 64",
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What references and scratch memory take.
+    fn working_bytes(&self, primitives: usize) -> usize {
+        let per_primitive = match self.object_split {
+            ObjectSplit::FullSweep => SweepMemory::BYTES_PER_REFERENCE,
+            ObjectSplit::Binned { .. } => BinnedTask::BYTES_PER_REFERENCE,
+        };
+        primitives.saturating_mul(per_primitive)
+    }
+
+    fn build_tree(
+        &self,
+        gathered: Gathered,
+        observer: &dyn BuildObserver,
+    ) -> Result<BuildTree<ChildBounds>, BuildError> {
+        let mut references = gathered.references;
+        let rules = NodeRules::new(self, references.len());
+        match self.object_split {
+            ObjectSplit::FullSweep => {
+                let mut memory = SweepMemory::new(references);
+                let task = memory.task(gathered.bounds);
+                build_top_down(&SweepSearch::new(rules), task, observer)
+            }
+            ObjectSplit::Binned { bins } => {
+                let task = BinnedTask::new(&mut references, gathered.bounds);
+                build_top_down(&BinnedSearch::new(rules, bins), task, observer)
+            }
+        }
+    }
+}

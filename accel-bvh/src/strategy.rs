@@ -1,0 +1,45 @@
+//! What both searches decide alike.
+
+use accel_core::SurfaceAreaHeuristic;
+use accel_core::build::median_depth;
+
+use crate::{BvhBuilder, LeafRule};
+
+/// When to stop, and when to give up on the heuristic.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodeRules {
+    pub heuristic: SurfaceAreaHeuristic,
+    leaf_rule: LeafRule,
+    max_depth: u32,
+    median_depth: u32,
+}
+
+impl NodeRules {
+    pub(crate) fn new(builder: &BvhBuilder, references: usize) -> Self {
+        Self {
+            heuristic: builder.heuristic,
+            leaf_rule: builder.leaf_rule,
+            max_depth: builder.budget.max_depth,
+            median_depth: median_depth(references),
+        }
+    }
+
+    /// Whether a node is a leaf without looking for a split.
+    #[inline]
+    pub(crate) fn ends_before_search(&self, count: usize, depth: u32) -> bool {
+        depth >= self.max_depth || count <= 1 || self.leaf_rule.ends_before_search(count)
+    }
+
+    /// Whether a node this deep must be halved, to bound the depth.
+    #[inline]
+    pub(crate) fn must_halve(&self, depth: u32) -> bool {
+        depth >= self.median_depth
+    }
+
+    /// Whether a node is a leaf rather than being split at this cost.
+    #[inline]
+    pub(crate) fn prefers_leaf(&self, count: usize, split_cost: f64) -> bool {
+        self.leaf_rule
+            .prefers_leaf(count, split_cost, &self.heuristic)
+    }
+}
