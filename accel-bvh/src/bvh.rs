@@ -5,7 +5,7 @@ use accel_core::query::Query;
 use accel_core::statistics::{BytesByPart, NodeKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
-use crate::node::{INNER_WORDS, InnerNode, NodePointer};
+use crate::node::{INNER_WORDS, InnerNode, Node, NodePointer};
 
 /// A bounding volume hierarchy in the uncompressed layout of Lin 2019: 52 bytes
 /// an inner node, 4 bytes a leaf. Made by [`BvhBuilder`](crate::BvhBuilder);
@@ -104,12 +104,12 @@ impl<P: Primitive> AccelerationStructure for Bvh<P> {
             .into_iter()
             .collect();
         while let Some((pointer, bounds, parent)) = pending.pop() {
-            match pointer {
-                NodePointer::Leaf(offset) => {
+            match pointer.kind() {
+                Node::Leaf(offset) => {
                     let ids = self.storage.leaf_ids(self.leaf_number(offset));
                     outline.push_leaf(bounds, parent, ids);
                 }
-                NodePointer::Inner(offset) => {
+                Node::Inner(offset) => {
                     let node = self.inner_node(offset);
                     let position = outline.push_inner(NodeKind::Inner, bounds, parent);
                     let children = node.children().pointers().into_iter().zip(node.bounds());

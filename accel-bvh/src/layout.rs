@@ -75,11 +75,7 @@ impl<P: Primitive> Packing<'_, P> {
     /// of what is written when their parent is, and returns the root and the
     /// depth.
     fn pack(&mut self, root: Cursor<'_, ChildBounds>) -> (NodePointer, u32) {
-        let root_pointer = if is_leaf(root) {
-            NodePointer::Leaf(0)
-        } else {
-            NodePointer::Inner(0)
-        };
+        let root_pointer = NodePointer::new(0, is_leaf(root));
         self.reserve(if is_leaf(root) {
             LEAF_WORDS
         } else {

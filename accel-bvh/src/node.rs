@@ -29,13 +29,36 @@ const OFFSET_MASK: u32 = LEFT_IS_LEAF - 1;
 /// The largest word offset that a node can hold.
 pub(crate) const MAX_OFFSET: usize = OFFSET_MASK as usize;
 
-/// Where a node is, and what kind it is.
+/// Where a node is, and what kind it is, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NodePointer {
+pub(crate) struct NodePointer(u32);
+
+const IS_LEAF: u32 = 1 << 31;
+
+/// A [`NodePointer`] taken apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Node {
     /// An inner node at this word.
     Inner(u32),
     /// A leaf at this word.
     Leaf(u32),
+}
+
+impl NodePointer {
+    #[inline]
+    pub(crate) fn new(offset: u32, is_leaf: bool) -> Self {
+        Self(offset | (u32::from(is_leaf) * IS_LEAF))
+    }
+
+    #[inline]
+    pub(crate) fn kind(self) -> Node {
+        let offset = self.0 & !IS_LEAF;
+        if self.0 & IS_LEAF != 0 {
+            Node::Leaf(offset)
+        } else {
+            Node::Inner(offset)
+        }
+    }
 }
 
 /// A pair of adjacent siblings.
@@ -51,18 +74,11 @@ impl Siblings {
     /// Left and right.
     #[inline]
     pub(crate) fn pointers(self) -> [NodePointer; 2] {
-        let pointer = |is_leaf, offset| {
-            if is_leaf {
-                NodePointer::Leaf(offset)
-            } else {
-                NodePointer::Inner(offset)
-            }
-        };
         let [left, right] = self.are_leaves;
         let left_words = if left { LEAF_WORDS } else { INNER_WORDS } as u32;
         [
-            pointer(left, self.offset),
-            pointer(right, self.offset + left_words),
+            NodePointer::new(self.offset, left),
+            NodePointer::new(self.offset + left_words, right),
         ]
     }
 
@@ -165,8 +181,12 @@ mod tests {
         };
         assert_eq!(
             siblings.pointers(),
-            [NodePointer::Leaf(100), NodePointer::Inner(101)]
+            [NodePointer::new(100, true), NodePointer::new(101, false)]
         );
         assert_eq!(siblings.words(), 14);
+        assert_eq!(
+            siblings.pointers().map(NodePointer::kind),
+            [Node::Leaf(100), Node::Inner(101)]
+        );
     }
 }

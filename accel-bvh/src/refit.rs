@@ -4,7 +4,7 @@ use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, Primitive, RefitError};
 
 use crate::Bvh;
-use crate::node::{INNER_WORDS, InnerNode, NodePointer};
+use crate::node::{INNER_WORDS, InnerNode, Node, NodePointer};
 
 impl<P: Primitive> Bvh<P> {
     /// Takes the primitives again, moved, in the order of the build, and fits
@@ -40,7 +40,7 @@ impl<P: Primitive> Bvh<P> {
         let mut pending = vec![root];
         while let Some(pointer) = pending.pop() {
             order.push(pointer);
-            if let NodePointer::Inner(offset) = pointer {
+            if let Node::Inner(offset) = pointer.kind() {
                 let [left, right] = self.inner_node(offset).children().pointers();
                 pending.extend([right, left]);
             }
@@ -50,7 +50,7 @@ impl<P: Primitive> Bvh<P> {
 
     fn check_bounds(&self, order: &[NodePointer], primitives: &[P]) -> Result<(), RefitError> {
         for pointer in order {
-            let &NodePointer::Leaf(offset) = pointer else {
+            let Node::Leaf(offset) = pointer.kind() else {
                 continue;
             };
             for id in self.storage.leaf_ids(self.leaf_number(offset)) {
@@ -68,13 +68,13 @@ impl<P: Primitive> Bvh<P> {
         // Boxes of subtrees whose parent is still to come, the left one on top.
         let mut boxes: Vec<Aabb> = Vec::new();
         for &pointer in order.iter().rev() {
-            let bounds = match pointer {
-                NodePointer::Leaf(offset) => self
+            let bounds = match pointer.kind() {
+                Node::Leaf(offset) => self
                     .storage
                     .leaf_ids(self.leaf_number(offset))
                     .map(|id| primitives[id as usize].bounds().gate())
                     .fold(Aabb::EMPTY, |all, gate| all.union(&gate)),
-                NodePointer::Inner(offset) => {
+                Node::Inner(offset) => {
                     let left = boxes.pop().unwrap_or(Aabb::EMPTY);
                     let right = boxes.pop().unwrap_or(Aabb::EMPTY);
                     self.set_child_bounds(offset, [left, right]);

@@ -9,17 +9,18 @@
 //!     otherwise: take the child put off last that is not behind the best hit
 //! ```
 
-use accel_core::PreparedRay;
-use accel_core::Primitive;
 use accel_core::geometry::Axis;
+use accel_core::glam::Vec3;
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::{FAR_PAD, NEAR_PAD, max_or_keep, min_or_keep};
+use accel_core::ray::{FAR_PAD, NEAR_PAD, max_or_keep};
+use accel_core::simd::F32x4;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
 use accel_core::structure::TraversalStack;
+use accel_core::{PreparedRay, Primitive};
 
 use crate::Bvh;
-use crate::node::{INNER_NODE_BYTES, InnerNode, LEAF_NODE_BYTES, NodePointer};
+use crate::node::{INNER_NODE_BYTES, InnerNode, LEAF_NODE_BYTES, Node};
 
 pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     bvh: &Bvh<P>,
@@ -38,8 +39,8 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     let mut stack = TraversalStack::new();
     let mut next = Some(root.pointer);
     while let Some(pointer) = next {
-        next = match pointer {
-            NodePointer::Leaf(offset) => {
+        next = match pointer.kind() {
+            Node::Leaf(offset) => {
                 statistics.visit_node(NodeKind::Leaf, LEAF_NODE_BYTES as u32);
                 let leaf = bvh.leaf_number(offset);
                 let flow = bvh.storage.intersect_leaf(leaf, ray, query, statistics);
@@ -48,24 +49,21 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 }
                 None
             }
-            NodePointer::Inner(offset) => {
+            Node::Inner(offset) => {
                 statistics.visit_node(NodeKind::Inner, INNER_NODE_BYTES as u32);
                 statistics.test_boxes(2);
                 let node = bvh.inner_node(offset);
-                let (near, far) = test.intervals(&node, query.t_max());
-                let [left, right] = node.children().pointers();
-                match (near[0] <= far[0], near[1] <= far[1]) {
-                    (true, true) if near[0] <= near[1] => {
-                        stack.push(right, near[1]);
-                        Some(left)
-                    }
-                    (true, true) => {
-                        stack.push(left, near[0]);
-                        Some(right)
-                    }
-                    (true, false) => Some(left),
-                    (false, true) => Some(right),
-                    (false, false) => None,
+                let (near, met) = test.meets(&node, query.t_max());
+                let children = node.children().pointers();
+                // A chain of predictable branches; a jump table is slower.
+                if met == 0b11 {
+                    let nearer = usize::from(near[1] < near[0]);
+                    stack.push(children[1 - nearer], near[1 - nearer]);
+                    Some(children[nearer])
+                } else if met != 0 {
+                    Some(children[met as usize >> 1])
+                } else {
+                    None
                 }
             }
         };
@@ -78,42 +76,54 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
 /// The slab test of two boxes at once, in the reference form of
 /// [`PreparedRay::slab`]: the same operations on the same numbers, so that the
 /// interval of a node contains those of the gate boxes inside it.
+///
+/// Lanes hold left and right of x, then left and right of y; z has a register
+/// of its own for entry and exit.
 struct SiblingTest {
-    origin: [f32; 3],
-    reciprocal: [f32; 3],
+    origin_xy: F32x4,
+    reciprocal_xy: F32x4,
+    origin_z: F32x4,
+    reciprocal_z: F32x4,
+    t_min: F32x4,
     negative: [bool; 3],
-    t_min: f32,
 }
 
 impl SiblingTest {
     #[inline]
     fn new(ray: &PreparedRay) -> Self {
+        let pairs = |v: Vec3| F32x4::new(v.x, v.x, v.y, v.y);
         Self {
-            origin: ray.origin().to_array(),
-            reciprocal: ray.reciprocal().to_array(),
+            origin_xy: pairs(ray.origin()),
+            reciprocal_xy: pairs(ray.reciprocal()),
+            origin_z: F32x4::splat(ray.origin().z),
+            reciprocal_z: F32x4::splat(ray.reciprocal().z),
+            t_min: F32x4::splat(ray.t_min()),
             negative: Axis::ALL.map(|axis| ray.is_negative(axis)),
-            t_min: ray.t_min(),
         }
     }
 
-    /// Where the ray enters and leaves the left and the right box, between its
-    /// `t_min` and `t_max`.
+    /// Where the ray enters the left and the right box, and whether it meets
+    /// them between its `t_min` and `t_max`: bit 0 for the left one, bit 1 for
+    /// the right one.
     #[inline]
-    fn intervals(&self, node: &InnerNode<'_>, t_max: f32) -> ([f32; 2], [f32; 2]) {
-        let mut near = [f32::NEG_INFINITY; 2];
-        let mut far = [f32::INFINITY; 2];
-        for axis in 0..3 {
-            let entry = node.planes(axis, self.negative[axis]);
-            let exit = node.planes(axis, !self.negative[axis]);
-            for side in 0..2 {
-                let distance = |plane: f32| (plane - self.origin[axis]) * self.reciprocal[axis];
-                near[side] = max_or_keep(near[side], distance(entry[side]));
-                far[side] = min_or_keep(far[side], distance(exit[side]));
-            }
-        }
-        (
-            near.map(|near| max_or_keep(self.t_min, near * NEAR_PAD)),
-            far.map(|far| min_or_keep(t_max, far * FAR_PAD)),
-        )
+    fn meets(&self, node: &InnerNode<'_>, t_max: f32) -> ([f32; 2], u32) {
+        let [x, y, z] = self.negative;
+        let planes = |first: [f32; 2], second: [f32; 2]| {
+            F32x4::new(first[0], first[1], second[0], second[1])
+        };
+        let entry_xy = planes(node.planes(0, x), node.planes(1, y));
+        let exit_xy = planes(node.planes(0, !x), node.planes(1, !y));
+        let both_z = planes(node.planes(2, z), node.planes(2, !z));
+        let entry_xy = (entry_xy - self.origin_xy) * self.reciprocal_xy;
+        let exit_xy = (exit_xy - self.origin_xy) * self.reciprocal_xy;
+        let both_z = (both_z - self.origin_z) * self.reciprocal_z;
+
+        let near = F32x4::splat(f32::NEG_INFINITY).max_or_keep(entry_xy);
+        let near = near.max_or_keep(near.high()).max_or_keep(both_z);
+        let far = F32x4::splat(f32::INFINITY).min_or_keep(exit_xy);
+        let far = far.min_or_keep(far.high()).min_or_keep(both_z.high());
+        let near = self.t_min.max_or_keep(near * F32x4::splat(NEAR_PAD));
+        let far = F32x4::splat(t_max).min_or_keep(far * F32x4::splat(FAR_PAD));
+        (near.first_two(), near.le_mask(far) & 0b11)
     }
 }

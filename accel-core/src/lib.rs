@@ -14,6 +14,7 @@ pub mod primitive;
 pub mod query;
 pub mod ray;
 pub mod reference;
+pub mod simd;
 pub mod split;
 pub mod statistics;
 pub mod structure;
