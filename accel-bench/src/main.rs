@@ -1,3 +1,7 @@
 //! The `accel-bench` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    accel_bench::cli::run()
+}

@@ -4,5 +4,120 @@ pub mod camera;
 pub mod embedded;
 pub mod mesh;
 pub mod obj;
+pub mod obj_export;
+
+use std::path::Path;
+
+use accel_core::primitive::{MeshError, triangles_of_mesh};
+use accel_core::{InvalidPrimitives, Primitive, Triangle};
+
+use camera::Camera;
+use obj::{ObjError, ObjLimits};
 
 pub use mesh::Mesh;
+
+/// A scene ready for building.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// An embedded scene's name, or the file's.
+    pub name: String,
+    /// The triangles; hits name them by their position here.
+    pub triangles: Vec<Triangle>,
+    /// A camera that sees the scene.
+    pub camera: Camera,
+    /// What was odd about the file, ready to print; empty if nothing was.
+    pub faults: String,
+}
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file can't be read as OBJ.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// Neither an embedded scene nor a file.
+    #[error("`{name}` is neither a file nor an embedded scene; embedded are {known}")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The embedded scenes.
+        known: String,
+    },
+    /// A mesh has an index without a position.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Triangles without finite corners, and no leave to skip them.
+    #[error(
+        "{name}: {count} triangles have corners that are not finite numbers (the first is \
+         triangle {first}); `--skip-invalid` leaves them out"
+    )]
+    Invalid {
+        /// The scene.
+        name: String,
+        /// How many there are.
+        count: usize,
+        /// The first of them.
+        first: usize,
+    },
+}
+
+impl Scene {
+    /// The embedded scene or OBJ file called `name`. Triangles without finite
+    /// corners are refused unless `invalid` says to skip them.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the scene and what is wrong with it.
+    pub fn load(name: &str, invalid: InvalidPrimitives) -> Result<Self, SceneError> {
+        let scene = match embedded::find(name) {
+            Some(embedded) => Self::of_embedded(embedded)?,
+            None => Self::of_file(name)?,
+        };
+        let faulty = scene.invalid_triangles();
+        match faulty.first() {
+            Some(&first) if invalid == InvalidPrimitives::Reject => Err(SceneError::Invalid {
+                name: scene.name,
+                count: faulty.len(),
+                first,
+            }),
+            _ => Ok(scene),
+        }
+    }
+
+    /// The positions of triangles without finite corners.
+    pub fn invalid_triangles(&self) -> Vec<usize> {
+        let is_invalid = |triangle: &Triangle| !triangle.bounds().is_valid();
+        let all = self.triangles.iter().enumerate();
+        all.filter(|(_, triangle)| is_invalid(triangle)).map(|(position, _)| position).collect()
+    }
+
+    fn of_embedded(embedded: &embedded::EmbeddedScene) -> Result<Self, SceneError> {
+        let mesh = embedded.mesh();
+        Ok(Self {
+            name: embedded.name.to_owned(),
+            triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
+            camera: embedded.cameras().first().copied().unwrap_or_else(|| Camera::seeing(&mesh)),
+            faults: String::new(),
+        })
+    }
+
+    fn of_file(name: &str) -> Result<Self, SceneError> {
+        let path = Path::new(name);
+        let looks_like_a_file = path.exists() || path.extension().is_some() || name.contains('/');
+        if !looks_like_a_file {
+            let known: Vec<_> = embedded::all().iter().map(|scene| scene.name).collect();
+            return Err(SceneError::Unknown {
+                name: name.to_owned(),
+                known: known.join(", "),
+            });
+        }
+        let loaded = obj::load(path, &ObjLimits::default())?;
+        let mesh = loaded.mesh;
+        Ok(Self {
+            name: path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned()),
+            triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
+            camera: Camera::seeing(&mesh),
+            faults: loaded.faults.to_string(),
+        })
+    }
+}

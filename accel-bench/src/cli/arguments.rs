@@ -1,0 +1,194 @@
+//! What can be asked for.
+
+use std::path::PathBuf;
+
+use accel_core::InvalidPrimitives;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::rays::RayKind;
+use crate::scene::camera::Camera;
+
+/// Compares ray-tracing acceleration structures. No row is printed unless its
+/// hits equal brute force's, bit for bit.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub compare: CompareOptions,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Compare structures: build time, memory, speed, counts (the default)
+    Compare(CompareOptions),
+    /// Compare hits with brute force, ray by ray, and list any that differ
+    Verify(VerifyOptions),
+    /// Draw a scene, or what its rays cost, as a picture
+    Render(RenderOptions),
+    /// List the embedded scenes, or write them as OBJ files
+    Scenes(ScenesOptions),
+}
+
+/// What every command that loads scenes takes.
+#[derive(Debug, Args)]
+pub(super) struct SceneOptions {
+    /// Where to look from: "eye;look-at;vertical-fov[;up]", each of eye, look-at
+    /// and up as x,y,z, the field of view in degrees. Chosen to see the scene if
+    /// left out.
+    #[arg(long, value_name = "CAMERA", allow_hyphen_values = true)]
+    pub camera: Option<Camera>,
+    /// Leave out triangles with corners that are not finite numbers
+    #[arg(long)]
+    pub skip_invalid: bool,
+    /// Threads to use; 0 means all
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub threads: usize,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub seed: u64,
+}
+
+impl SceneOptions {
+    pub(super) fn invalid(&self) -> InvalidPrimitives {
+        if self.skip_invalid { InvalidPrimitives::Skip } else { InvalidPrimitives::Reject }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompareOptions {
+    /// Embedded scenes by name, or OBJ files; three embedded ones if left out
+    #[arg(value_name = "SCENE")]
+    pub scenes: Vec<String>,
+    /// Structures by name, or `all`; one or a few of each crate if left out
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub structures: Vec<String>,
+    /// Kinds of rays: primary, shadow, ao, path, random, transparent
+    #[arg(long, value_delimiter = ',', value_name = "KIND")]
+    pub rays: Vec<RayKind>,
+    /// Pixels, across and down
+    #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
+    pub size: (u32, u32),
+    /// Rounds of timing; every round goes around all structures
+    #[arg(long, default_value_t = 5, value_name = "N")]
+    pub rounds: usize,
+    /// Write all figures as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write all figures as CSV
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Where to write the report: index.html, report.json, report.csv
+    #[arg(long, default_value = "accel-report", value_name = "DIR")]
+    pub report: PathBuf,
+    #[command(flatten)]
+    pub scene: SceneOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct VerifyOptions {
+    /// Embedded scenes by name, or OBJ files
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<String>,
+    /// Rays of each kind
+    #[arg(long, default_value_t = 10_000, value_name = "N")]
+    pub rays: usize,
+    /// Structures by name, or `all`
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub structures: Vec<String>,
+    #[command(flatten)]
+    pub scene: SceneOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RenderOptions {
+    /// An embedded scene by name, or an OBJ file
+    #[arg(value_name = "SCENE")]
+    pub scene_name: String,
+    /// The structure to trace with
+    #[arg(long, default_value = "bvh-sweep", value_name = "NAME")]
+    pub structure: String,
+    /// What to show
+    #[arg(long, value_enum, default_value_t = Show::Shaded)]
+    pub show: Show,
+    /// The picture to write
+    #[arg(short, long, default_value = "render.png", value_name = "FILE")]
+    pub output: PathBuf,
+    /// Pixels, across and down
+    #[arg(long, default_value = "960x720", value_parser = size, value_name = "WxH")]
+    pub size: (u32, u32),
+    #[command(flatten)]
+    pub scene: SceneOptions,
+}
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Show {
+    /// The scene, lit from the camera
+    Shaded,
+    /// Geometric normals as colours
+    Normals,
+    /// Nodes visited per pixel
+    Nodes,
+    /// Planes tested per pixel; a box counts six
+    Planes,
+    /// Triangles tested per pixel
+    Tests,
+    /// Nodes visited plus triangles tested per pixel
+    Cost,
+    /// Time per pixel
+    Time,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ScenesOptions {
+    /// Write every embedded scene as an OBJ file into this folder
+    #[arg(long, value_name = "DIR")]
+    pub export: Option<PathBuf>,
+}
+
+/// The most pixels that a side may have.
+const LARGEST_SIDE: u32 = 16_384;
+
+/// Parses "WxH".
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X']);
+    let parsed = sides.map(|(width, height)| (width.trim().parse(), height.trim().parse()));
+    match parsed {
+        Some((Ok(width), Ok(height)))
+            if (1..=LARGEST_SIDE).contains(&width) && (1..=LARGEST_SIDE).contains(&height) =>
+        {
+            Ok((width, height))
+        }
+        _ => Err(format!(
+            "`{text}` is not WxH with sides of 1 to {LARGEST_SIDE} pixels, such as 640x480"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_two_numbers_within_limits() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        for bad in ["640", "0x5", "5x0", "x", "99999x1", "-1x1", "1x1x1"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn compare_is_the_default_command() {
+        let bare = Arguments::try_parse_from(["accel-bench", "--rays", "ao,path"]).unwrap();
+        assert!(bare.command.is_none());
+        assert_eq!(bare.compare.rays, [RayKind::AmbientOcclusion, RayKind::Path]);
+    }
+}

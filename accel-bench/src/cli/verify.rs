@@ -1,0 +1,157 @@
+//! `verify`: every structure against brute force.
+
+use std::io::Write;
+
+use accel_core::testing::rays as adversarial;
+use accel_core::{Primitive, RaySegment, Triangle};
+
+use super::arguments::VerifyOptions;
+use super::{build, interrupt, load, ray_finder, ray_source, with_threads};
+use crate::progress;
+use crate::rays::{Question, RayKind};
+use crate::registry::{self, Row, Structure};
+use crate::scene::Scene;
+use crate::verification::Expected;
+
+/// Disagreements printed in full, per structure and kind of ray.
+const PRINTED: usize = 5;
+
+/// Verifies all scenes; false if anything disagreed.
+pub(super) fn run(options: &VerifyOptions) -> anyhow::Result<bool> {
+    anyhow::ensure!(options.rays > 0, "--rays must be at least 1");
+    let rows = registry::select(&options.structures).map_err(anyhow::Error::msg)?;
+    with_threads(options.scene.threads, || {
+        let mut total = Tally::default();
+        for name in &options.scenes {
+            if interrupt::is_requested() {
+                break;
+            }
+            let scene = load(name, &options.scene)?;
+            total.add(&verify_scene(&scene, &rows, options)?);
+        }
+        say(&format!(
+            "{} rays compared with brute force, {} disagreements",
+            total.rays, total.disagreements
+        ))?;
+        Ok(total.disagreements == 0)
+    })
+}
+
+#[derive(Default)]
+struct Tally {
+    rays: usize,
+    disagreements: usize,
+}
+
+impl Tally {
+    fn add(&mut self, other: &Self) {
+        self.rays += other.rays;
+        self.disagreements += other.disagreements;
+    }
+}
+
+/// A set of rays with the question asked of them.
+struct Trial {
+    name: String,
+    question: Question,
+    rays: Vec<RaySegment>,
+}
+
+fn verify_scene(scene: &Scene, rows: &[&Row], options: &VerifyOptions) -> anyhow::Result<Tally> {
+    say(&format!("{} ({} triangles)", scene.name, scene.triangles.len()))?;
+    let invalid = options.scene.invalid();
+    let oracle = registry::oracle(&scene.triangles, invalid)?;
+    let structures = rows
+        .iter()
+        .map(|row| build(row, scene, invalid))
+        .collect::<anyhow::Result<Vec<Structure>>>()?;
+    let mut tally = Tally::default();
+    for trial in trials(scene, options)? {
+        if interrupt::is_requested() {
+            break;
+        }
+        let what = format!("{}: brute force, {}", scene.name, trial.name);
+        let bar = progress::bar(&what, trial.rays.len() as u64);
+        let tick = |rays: usize| bar.inc(rays as u64);
+        let expected = Expected::new(&oracle, trial.question, trial.rays, &tick);
+        bar.finish_and_clear();
+        for (row, structure) in rows.iter().zip(&structures) {
+            let disagreements = expected.disagreements(structure.as_ref());
+            say(&format!(
+                "  {:<16} {:<24} {:>9} rays  {:>6} disagreements",
+                row.name,
+                trial.name,
+                expected.len(),
+                disagreements.len()
+            ))?;
+            for found in disagreements.iter().take(PRINTED) {
+                say(&format!(
+                    "    {:?}\n      expected {:?}\n      got      {:?}",
+                    found.ray, found.expected, found.actual
+                ))?;
+            }
+            tally.add(&Tally {
+                rays: expected.len(),
+                disagreements: disagreements.len(),
+            });
+        }
+    }
+    Ok(tally)
+}
+
+/// Every kind of rays of the bench, and the adversarial ones, each with the
+/// closest-hit question and the latter with all others too.
+fn trials(scene: &Scene, options: &VerifyOptions) -> anyhow::Result<Vec<Trial>> {
+    let mut trials = Vec::new();
+    let finder = ray_finder(scene, options.scene.invalid())?;
+    // Enough pixels for the kind with the fewest rays: all kinds but primary
+    // make at least one ray per pixel that hits something.
+    let mut side = (options.rays as f64).sqrt().ceil() as u32;
+    for kind in RayKind::ALL {
+        let mut rays = Vec::new();
+        for _ in 0..4 {
+            let source = ray_source(scene, &finder, (side, side), options.scene.seed);
+            rays = source.map(|source| source.rays(kind).rays).unwrap_or_default();
+            if rays.len() >= options.rays || rays.is_empty() {
+                break;
+            }
+            side *= 2;
+        }
+        trials.push(Trial {
+            name: kind.name().to_owned(),
+            question: kind.question(),
+            rays: spread(rays, options.rays),
+        });
+    }
+    let valid: Vec<Triangle> = scene
+        .triangles
+        .iter()
+        .filter(|triangle| triangle.bounds().is_valid())
+        .copied()
+        .collect();
+    for family in adversarial::RayFamily::ALL {
+        let rays = adversarial::rays(family, &valid, options.scene.seed, options.rays);
+        let questions = [(Question::Closest, "closest"), (Question::Any, "any")];
+        for (question, name) in questions {
+            trials.push(Trial {
+                name: format!("{} ({name})", family.name()),
+                question,
+                rays: rays.clone(),
+            });
+        }
+    }
+    Ok(trials)
+}
+
+/// `count` of the rays, evenly spread; all if there are fewer.
+fn spread(rays: Vec<RaySegment>, count: usize) -> Vec<RaySegment> {
+    if rays.len() <= count {
+        return rays;
+    }
+    (0..count).map(|index| rays[index * rays.len() / count]).collect()
+}
+
+fn say(line: &str) -> anyhow::Result<()> {
+    writeln!(std::io::stdout(), "{line}")?;
+    Ok(())
+}
