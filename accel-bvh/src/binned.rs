@@ -10,8 +10,8 @@ use std::marker::PhantomData;
 
 use accel_core::Aabb;
 use accel_core::build::{Division, TopDown, join};
-use accel_core::reference::{Reference, bounds_of};
-use accel_core::split::binning::Bins;
+use accel_core::reference::{Reference, bounds_of, centers_of};
+use accel_core::split::binning::{BinCut, Bins, MAX_BINS};
 use accel_core::split::partition;
 
 use crate::ChildBounds;
@@ -44,9 +44,25 @@ impl BinnedSearch<'_> {
         }
     }
 
-    /// Fewer bins for small nodes, where filling them costs more than it finds.
-    fn bins_for(&self, count: usize) -> usize {
-        self.bins.min(4 + count / 20)
+    /// The cheapest cut, with fewer bins for small nodes, where handling them
+    /// costs more than it finds.
+    fn cheapest_cut(&self, task: &BinnedTask<'_>) -> Option<BinCut> {
+        let bins = self.bins.min(4 + task.references.len() / 20);
+        match bins {
+            0..=8 => self.cheapest_cut_of::<8>(task, bins),
+            9..=16 => self.cheapest_cut_of::<16>(task, bins),
+            _ => self.cheapest_cut_of::<MAX_BINS>(task, bins),
+        }
+    }
+
+    fn cheapest_cut_of<const N: usize>(
+        &self,
+        task: &BinnedTask<'_>,
+        bins: usize,
+    ) -> Option<BinCut> {
+        let mut bins = Bins::<N>::new(&task.centers, bins);
+        fill(&mut bins, task.references);
+        bins.cheapest_cut(task.bounds.half_area(), &self.rules.heuristic)
     }
 }
 
@@ -110,11 +126,10 @@ impl<'a> BinnedSearch<'a> {
         if self.rules.must_halve(depth) {
             return halve(task);
         }
-        let bins = fill_bins(task.references, &task.centers, self.bins_for(count));
-        match bins.cheapest_cut(task.bounds.half_area(), &self.rules.heuristic) {
+        match self.cheapest_cut(&task) {
             Some(cut) if self.rules.prefers_leaf(count, cut.cost) => Err(task),
             Some(cut) => {
-                let is_left = |reference: &Reference| cut.position.is_left(reference);
+                let is_left = |reference: &Reference| cut.boundary.is_left(reference);
                 let position = partition::in_place(task.references, is_left);
                 Ok(task.halves(position, Some(cut.bounds)))
             }
@@ -127,23 +142,13 @@ impl<'a> BinnedSearch<'a> {
 
 /// Counting is exact and the bins' boxes are minima and maxima, so the halves
 /// can be counted apart without changing the result.
-fn fill_bins(references: &[Reference], centers: &Aabb, count: usize) -> Bins {
+fn fill<const N: usize>(bins: &mut Bins<N>, references: &[Reference]) {
     if references.len() < PARALLEL_BINNING {
-        let mut bins = Bins::new(centers, count);
         bins.fill(references);
-        return bins;
+        return;
     }
     let (left, right) = references.split_at(references.len() / 2);
-    let (mut bins, others) = join(
-        || fill_bins(left, centers, count),
-        || fill_bins(right, centers, count),
-    );
+    let mut others = bins.clone();
+    join(|| fill(bins, left), || fill(&mut others, right));
     bins.merge(&others);
-    bins
-}
-
-fn centers_of(references: &[Reference]) -> Aabb {
-    references.iter().fold(Aabb::EMPTY, |centers, reference| {
-        centers.grown_to(reference.bounds.center())
-    })
 }

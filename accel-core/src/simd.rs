@@ -48,6 +48,12 @@ impl F32x4 {
         lanes::le_mask(self.0, other.0)
     }
 
+    /// The lanes in order.
+    #[inline(always)]
+    pub fn to_array(self) -> [f32; 4] {
+        lanes::to_array(self.0)
+    }
+
     /// The first two lanes.
     #[inline(always)]
     pub fn first_two(self) -> [f32; 2] {
@@ -117,6 +123,13 @@ mod lanes {
         unsafe { sse::_mm_movemask_ps(sse::_mm_cmple_ps(a, b)) as u32 }
     }
     #[inline(always)]
+    pub fn to_array(a: Lanes) -> [f32; 4] {
+        let mut array = [0.0; 4];
+        // SAFETY: as above, and the array has room for four lanes.
+        unsafe { sse::_mm_storeu_ps(array.as_mut_ptr(), a) };
+        array
+    }
+    #[inline(always)]
     pub fn first_two(a: Lanes) -> [f32; 2] {
         // SAFETY: as above.
         let second = unsafe { sse::_mm_shuffle_ps::<0b01_01_01_01>(a, a) };
@@ -166,6 +179,10 @@ mod lanes {
             .sum()
     }
     #[inline(always)]
+    pub fn to_array(a: Lanes) -> [f32; 4] {
+        a
+    }
+    #[inline(always)]
     pub fn first_two(a: Lanes) -> [f32; 2] {
         [a[0], a[1]]
     }
@@ -202,6 +219,7 @@ mod tests {
         }
         let four = F32x4::new(1.0, 2.0, 3.0, 4.0);
         assert_eq!(four.high().first_two(), [3.0, 4.0]);
+        assert_eq!(four.to_array(), [1.0, 2.0, 3.0, 4.0]);
         assert_eq!((four * four - F32x4::splat(1.0)).first_two(), [0.0, 3.0]);
     }
 }

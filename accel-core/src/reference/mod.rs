@@ -3,7 +3,7 @@
 mod clipping;
 mod gather;
 
-use crate::geometry::{Aabb, Axis, DAabb};
+use crate::geometry::{Aabb, Axis, DAabb, GrowingBox};
 use crate::primitive::Clip;
 
 pub use clipping::{clip_polygon, clip_polygon_corners};
@@ -94,9 +94,20 @@ impl PartialOrd for SortKey {
 
 /// The smallest box around all of `references`.
 pub fn bounds_of(references: &[Reference]) -> Aabb {
-    references.iter().fold(Aabb::EMPTY, |bounds, reference| {
-        bounds.union(&reference.bounds)
-    })
+    let mut bounds = GrowingBox::empty();
+    for reference in references {
+        bounds.add(&reference.bounds);
+    }
+    bounds.bounds()
+}
+
+/// The smallest box around the centres of the boxes of all of `references`.
+pub fn centers_of(references: &[Reference]) -> Aabb {
+    let mut centers = GrowingBox::empty();
+    for reference in references {
+        centers.add_point(reference.bounds.center());
+    }
+    centers.bounds()
 }
 
 #[cfg(test)]

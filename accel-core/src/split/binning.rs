@@ -1,9 +1,7 @@
 //! The quick search: references counted into bins, cuts between bins only.
 
-use super::{SplitCandidate, SurfaceAreaHeuristic, keep_better};
-use arrayvec::ArrayVec;
-
-use crate::geometry::{Aabb, Axis};
+use super::{Rank, SplitCandidate, SurfaceAreaHeuristic, keep_better};
+use crate::geometry::{Aabb, Axis, GrowingBox};
 use crate::reference::Reference;
 
 /// The most bins per axis that a search can use.
@@ -41,8 +39,8 @@ impl BinMapping {
     #[inline]
     pub fn bin(&self, position: f32) -> usize {
         // The cast saturates: nothing, not even infinity, falls outside.
-        let bin = ((position - self.low) * self.scale) as usize;
-        bin.min(self.bins - 1)
+        let bin = ((position - self.low) * self.scale) as u32;
+        bin.min(self.bins as u32 - 1) as usize
     }
 
     /// The bin of a reference: that of its box's centre.
@@ -53,53 +51,68 @@ impl BinMapping {
 }
 
 /// The references whose centres fall into one bin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Bin {
-    bounds: Aabb,
+    bounds: GrowingBox,
     count: usize,
 }
 
 impl Bin {
-    const EMPTY: Self = Self {
-        bounds: Aabb::EMPTY,
-        count: 0,
-    };
+    #[inline(always)]
+    fn empty() -> Self {
+        Self {
+            bounds: GrowingBox::empty(),
+            count: 0,
+        }
+    }
 
-    #[inline]
+    #[inline(always)]
+    fn add(&mut self, reference: &Reference) {
+        self.bounds.add(&reference.bounds);
+        self.count += 1;
+    }
+
+    #[inline(always)]
     fn merge(&mut self, other: &Self) {
-        self.bounds = self.bounds.union(&other.bounds);
+        self.bounds.merge(&other.bounds);
         self.count += other.count;
     }
 }
 
-/// The bins of all three axes, filled in one pass over the references.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bins {
+/// The bins of all three axes, with room for `N` on each: a small `N` saves the
+/// clearing that would dominate in small nodes.
+#[derive(Clone, Debug)]
+pub struct Bins<const N: usize> {
     mappings: [Option<BinMapping>; 3],
-    bins: [ArrayVec<Bin, MAX_BINS>; 3],
+    bins: [[Bin; N]; 3],
 }
 
-impl Bins {
-    /// Empty bins over the range of `centers`, `bins` per axis.
+impl<const N: usize> Bins<N> {
+    /// Empty bins over the range of `centers`, `bins` but at most `N` per axis.
+    #[inline]
     pub fn new(centers: &Aabb, bins: usize) -> Self {
-        let bins = bins.min(MAX_BINS);
-        // Only as many as are used: clearing all of them would dominate in small
-        // nodes.
-        let empty = || std::iter::repeat_n(Bin::EMPTY, bins).collect();
         Self {
-            mappings: Axis::ALL.map(|axis| BinMapping::new(axis, centers, bins)),
-            bins: [empty(), empty(), empty()],
+            mappings: Axis::ALL.map(|axis| BinMapping::new(axis, centers, bins.min(N))),
+            bins: [[Bin::empty(); N]; 3],
         }
     }
 
     /// Counts `references` in.
     pub fn fill(&mut self, references: &[Reference]) {
+        let [x, y, z] = &self.mappings;
+        if let (Some(x), Some(y), Some(z)) = (x, y, z) {
+            // The usual case, in one pass.
+            for reference in references {
+                self.bins[0][x.bin_of(reference)].add(reference);
+                self.bins[1][y.bin_of(reference)].add(reference);
+                self.bins[2][z.bin_of(reference)].add(reference);
+            }
+            return;
+        }
         for (mapping, bins) in self.mappings.iter().zip(&mut self.bins) {
             let Some(mapping) = mapping else { continue };
             for reference in references {
-                let bin = &mut bins[mapping.bin_of(reference)];
-                bin.bounds = bin.bounds.union(&reference.bounds);
-                bin.count += 1;
+                bins[mapping.bin_of(reference)].add(reference);
             }
         }
     }
@@ -114,34 +127,65 @@ impl Bins {
         }
     }
 
-    /// The cheapest cut between two bins of any axis, both sides occupied; its
-    /// position is the mapping and the first bin of the second side. `None` if
-    /// all centres coincide.
+    /// The cheapest cut between two bins of any axis, both sides occupied.
+    /// `None` if all centres coincide.
     pub fn cheapest_cut(
         &self,
         parent_area: f64,
         heuristic: &SurfaceAreaHeuristic,
-    ) -> Option<SplitCandidate<BinCut>> {
+    ) -> Option<BinCut> {
         let mut best = None;
         for (mapping, bins) in self.mappings.iter().zip(&self.bins) {
             if let Some(mapping) = mapping {
-                cheapest_cut_of_axis(*mapping, bins, parent_area, heuristic, &mut best);
+                let candidate = cheapest_of_axis(*mapping, bins, parent_area, heuristic);
+                if let Some(candidate) = candidate {
+                    keep_better(&mut best, candidate);
+                }
             }
         }
-        best
+        best.map(|candidate| self.with_bounds(candidate))
+    }
+
+    fn with_bounds(&self, candidate: SplitCandidate<Boundary>) -> BinCut {
+        let bins = &self.bins[candidate.axis.index()];
+        let (left, right) = bins.split_at(candidate.position.first_right);
+        let united = |bins: &[Bin]| {
+            let mut bounds = GrowingBox::empty();
+            for bin in bins {
+                bounds.merge(&bin.bounds);
+            }
+            bounds.bounds()
+        };
+        BinCut {
+            boundary: candidate.position,
+            cost: candidate.cost,
+            bounds: [united(left), united(right)],
+        }
     }
 }
 
-/// A cut between two bins: references in bins before `first_right` go left.
+/// A cut between two bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BinCut {
+    /// Where it is.
+    pub boundary: Boundary,
+    /// The expected cost of the node, cut there.
+    pub cost: f64,
+    /// The boxes of both sides.
+    pub bounds: [Aabb; 2],
+}
+
+/// The boundary between two bins: references in bins before `first_right` go
+/// left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boundary {
     /// How references fall into bins.
     pub mapping: BinMapping,
     /// The first bin of the right side.
     pub first_right: usize,
 }
 
-impl BinCut {
+impl Boundary {
     /// Whether `reference` goes left.
     #[inline]
     pub fn is_left(&self, reference: &Reference) -> bool {
@@ -149,44 +193,48 @@ impl BinCut {
     }
 }
 
-fn cheapest_cut_of_axis(
+fn cheapest_of_axis<const N: usize>(
     mapping: BinMapping,
-    bins: &[Bin],
+    bins: &[Bin; N],
     parent_area: f64,
     heuristic: &SurfaceAreaHeuristic,
-    best: &mut Option<SplitCandidate<BinCut>>,
-) {
-    let mut right_of: ArrayVec<Bin, MAX_BINS> = bins.iter().copied().collect();
-    for bin in (1..bins.len()).rev() {
-        let after = right_of[bin];
-        right_of[bin - 1].merge(&after);
+) -> Option<SplitCandidate<Boundary>> {
+    let bins = &bins[..mapping.bins];
+    let mut right_of = [(0.0, 0); N];
+    let mut right = Bin::empty();
+    for (bin, slot) in bins.iter().zip(&mut right_of).skip(1).rev() {
+        right.merge(bin);
+        *slot = (right.bounds.half_area(), right.count);
     }
-    let mut left = Bin::EMPTY;
-    for first_right in 1..bins.len() {
-        left.merge(&bins[first_right - 1]);
-        let right = &right_of[first_right];
-        if left.count == 0 || right.count == 0 {
-            continue;
-        }
-        let areas = [left.bounds.half_area(), right.bounds.half_area()];
-        let counts = [left.count, right.count];
-        let candidate = SplitCandidate {
-            axis: mapping.axis,
-            position: BinCut {
-                mapping,
-                first_right,
-            },
-            cost: heuristic.split_cost(parent_area, areas, counts),
-            bounds: [left.bounds, right.bounds],
+    let node_cost = heuristic.of_node(parent_area, right.count + bins[0].count);
+    let mut left = Bin::empty();
+    let (mut best, mut found) = (Rank::WORST, None);
+    for (before, (bin, &(right_area, right_count))) in bins.iter().zip(&right_of[1..]).enumerate() {
+        left.merge(bin);
+        let counts = [left.count, right_count];
+        let rank = Rank::new(
+            node_cost.split([left.bounds.half_area(), right_area], counts),
             counts,
-        };
-        keep_better(best, candidate);
+        );
+        if left.count > 0 && right_count > 0 && rank.beats(best) {
+            (best, found) = (rank, Some((before + 1, counts)));
+        }
     }
+    found.map(|(first_right, counts)| SplitCandidate {
+        axis: mapping.axis,
+        position: Boundary {
+            mapping,
+            first_right,
+        },
+        cost: best.cost,
+        counts,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::reference::{bounds_of, centers_of};
 
     fn boxes(xs: &[f32]) -> Vec<Reference> {
         (0..)
@@ -198,41 +246,34 @@ mod tests {
             .collect()
     }
 
-    fn centers(references: &[Reference]) -> Aabb {
-        references.iter().fold(Aabb::EMPTY, |bounds, reference| {
-            bounds.grown_to(reference.bounds.center())
-        })
-    }
-
     #[test]
     fn search_and_partition_agree_and_merging_equals_filling_at_once() {
         let references = boxes(&[0.0, 1.0, 2.0, 30.0, 31.0]);
-        let centers = centers(&references);
-        let mut at_once = Bins::new(&centers, 16);
+        let centers = centers_of(&references);
+        let area = bounds_of(&references).half_area();
+        let mut at_once = Bins::<16>::new(&centers, 16);
         at_once.fill(&references);
         let (first, second) = references.split_at(2);
-        let mut merged = Bins::new(&centers, 16);
+        let mut merged = Bins::<16>::new(&centers, 16);
         merged.fill(second);
-        let mut other = Bins::new(&centers, 16);
+        let mut other = Bins::<16>::new(&centers, 16);
         other.fill(first);
         merged.merge(&other);
-        assert_eq!(merged, at_once);
 
-        let area = crate::reference::bounds_of(&references).half_area();
-        let cut = at_once
-            .cheapest_cut(area, &SurfaceAreaHeuristic::default())
-            .unwrap();
-        assert_eq!(cut.counts, [3, 2]);
-        let left = references
+        let heuristic = SurfaceAreaHeuristic::default();
+        let cut = at_once.cheapest_cut(area, &heuristic).unwrap();
+        assert_eq!(merged.cheapest_cut(area, &heuristic), Some(cut));
+        let (left, right): (Vec<Reference>, Vec<Reference>) = references
             .iter()
-            .filter(|reference| cut.position.is_left(reference));
-        assert_eq!(left.count(), 3);
+            .partition(|reference| cut.boundary.is_left(reference));
+        assert_eq!((left.len(), right.len()), (3, 2));
+        assert_eq!(cut.bounds, [bounds_of(&left), bounds_of(&right)]);
     }
 
     #[test]
     fn coincident_centres_have_no_cut() {
         let references = boxes(&[4.0, 4.0, 4.0]);
-        let bins = Bins::new(&centers(&references), 16);
+        let bins = Bins::<16>::new(&centers_of(&references), 16);
         assert!(
             bins.cheapest_cut(1.0, &SurfaceAreaHeuristic::default())
                 .is_none()

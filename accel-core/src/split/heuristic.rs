@@ -75,15 +75,40 @@ impl SurfaceAreaHeuristic {
         self.intersection_cost * references as f64
     }
 
-    /// The expected cost of a node of half area `parent_area` whose children
-    /// have these half areas and numbers of references:
+    /// The costs of all splits of a node of `count` references and this half
+    /// area.
+    #[inline]
+    pub fn of_node(&self, parent_area: f64, count: usize) -> NodeCost {
+        if parent_area > 0.0 {
+            NodeCost {
+                base: self.traversal_cost,
+                per_area: self.intersection_cost / parent_area,
+            }
+        } else {
+            // Every child is met with probability 1.
+            NodeCost {
+                base: self.traversal_cost + self.leaf_cost(count),
+                per_area: 0.0,
+            }
+        }
+    }
+}
+
+/// The heuristic for one node, its division by the node's area done once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeCost {
+    base: f64,
+    per_area: f64,
+}
+
+impl NodeCost {
+    /// The expected cost of the node if its children have these half areas and
+    /// numbers of references:
     /// `C_t + SA(B_1) / SA(B) |P_1| C_i + SA(B_2) / SA(B) |P_2| C_i`.
     #[inline]
-    pub fn split_cost(&self, parent_area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
-        let side = |side: usize| {
-            Self::probability(areas[side], parent_area) * self.leaf_cost(counts[side])
-        };
-        self.traversal_cost + side(0) + side(1)
+    pub fn split(&self, areas: [f64; 2], counts: [usize; 2]) -> f64 {
+        let weighted = areas[0] * counts[0] as f64 + areas[1] * counts[1] as f64;
+        self.base + weighted * self.per_area
     }
 }
 
@@ -97,7 +122,7 @@ mod tests {
             traversal_cost: 1.5,
             intersection_cost: 2.0,
         };
-        let cost = heuristic.split_cost(8.0, [4.0, 6.0], [3, 5]);
+        let cost = heuristic.of_node(8.0, 8).split([4.0, 6.0], [3, 5]);
         assert_eq!(cost, 1.5 + 0.5 * 3.0 * 2.0 + 0.75 * 5.0 * 2.0);
         assert_eq!(heuristic.leaf_cost(8), 16.0);
     }
@@ -106,6 +131,8 @@ mod tests {
     fn a_parent_without_area_gives_probability_one_not_nan() {
         assert_eq!(SurfaceAreaHeuristic::probability(0.0, 0.0), 1.0);
         assert_eq!(SurfaceAreaHeuristic::probability(3.0, 2.0), 1.0);
+        let cost = SurfaceAreaHeuristic::default().of_node(0.0, 5);
+        assert_eq!(cost.split([0.0, 0.0], [2, 3]), 6.0);
     }
 
     #[test]

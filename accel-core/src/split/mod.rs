@@ -5,9 +5,9 @@ mod heuristic;
 pub mod partition;
 pub mod sweep;
 
-pub use heuristic::SurfaceAreaHeuristic;
+pub use heuristic::{NodeCost, SurfaceAreaHeuristic};
 
-use crate::geometry::{Aabb, Axis};
+use crate::geometry::Axis;
 
 /// A way to divide the references of a node into two sets without duplicating
 /// any.
@@ -20,32 +20,51 @@ pub struct SplitCandidate<Position> {
     /// The expected cost of the node, split this way, by the surface area
     /// heuristic.
     pub cost: f64,
-    /// The boxes of both sides.
-    pub bounds: [Aabb; 2],
     /// The number of references on both sides.
     pub counts: [usize; 2],
 }
 
-impl<Position> SplitCandidate<Position> {
-    /// Whether this candidate is to be preferred: cheaper, or as cheap and more
-    /// balanced, which keeps trees over coincident primitives shallow.
-    #[inline]
-    pub fn beats(&self, other: &Self) -> bool {
-        self.cost < other.cost || (self.cost == other.cost && self.imbalance() < other.imbalance())
+/// How good a split is: the cheaper one is better, and of equally dear ones the
+/// more balanced one, which keeps trees over coincident primitives shallow.
+#[derive(Clone, Copy, Debug)]
+struct Rank {
+    cost: f64,
+    imbalance: usize,
+}
+
+impl Rank {
+    /// Worse than any split.
+    const WORST: Self = Self {
+        cost: f64::INFINITY,
+        imbalance: usize::MAX,
+    };
+
+    #[inline(always)]
+    fn new(cost: f64, counts: [usize; 2]) -> Self {
+        Self {
+            cost,
+            imbalance: counts[0].abs_diff(counts[1]),
+        }
     }
 
-    fn imbalance(&self) -> usize {
-        self.counts[0].abs_diff(self.counts[1])
+    #[inline(always)]
+    fn beats(self, other: Self) -> bool {
+        self.cost < other.cost || (self.cost == other.cost && self.imbalance < other.imbalance)
     }
 }
 
-/// Keeps the better of `best` and `candidate`; the earlier of equals.
+/// Keeps the better of `best` and `candidate`: the cheaper one, of equally dear
+/// ones the more balanced one, of equals the earlier one.
 #[inline]
 pub fn keep_better<Position>(
     best: &mut Option<SplitCandidate<Position>>,
     candidate: SplitCandidate<Position>,
 ) {
-    if best.as_ref().is_none_or(|best| candidate.beats(best)) {
+    let rank = |candidate: &SplitCandidate<Position>| Rank::new(candidate.cost, candidate.counts);
+    if best
+        .as_ref()
+        .is_none_or(|best| rank(&candidate).beats(rank(best)))
+    {
         *best = Some(candidate);
     }
 }

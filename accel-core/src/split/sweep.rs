@@ -1,7 +1,7 @@
 //! The full search: every position in the order along an axis.
 
-use super::{SplitCandidate, SurfaceAreaHeuristic, keep_better};
-use crate::geometry::{Aabb, Axis};
+use super::{Rank, SplitCandidate, SurfaceAreaHeuristic};
+use crate::geometry::{Axis, GrowingBox};
 use crate::reference::Reference;
 
 /// The cheapest way to cut `references`, sorted along `axis`, into a first and a
@@ -12,6 +12,9 @@ use crate::reference::Reference;
 /// start evaluates every cut (Wald 2007, *On fast Construction of SAH-based
 /// Bounding Volume Hierarchies*, section 2). `areas` is scratch memory, as long
 /// as `references`.
+///
+/// # Panics
+/// If `areas` is empty.
 pub fn cheapest_cut(
     references: &[Reference],
     axis: Axis,
@@ -20,31 +23,32 @@ pub fn cheapest_cut(
     areas: &mut [f64],
 ) -> Option<SplitCandidate<usize>> {
     let count = references.len();
+    let node_cost = heuristic.of_node(parent_area, count);
     record_areas_from_end(references, areas);
-    let mut bounds = Aabb::EMPTY;
-    let mut best: Option<SplitCandidate<usize>> = None;
-    for position in 1..count {
-        bounds = bounds.union(&references[position - 1].bounds);
+    let mut bounds = GrowingBox::empty();
+    let (mut best, mut best_position) = (Rank::WORST, None);
+    for (before, (reference, &area)) in references.iter().zip(&areas[1..]).enumerate() {
+        let position = before + 1;
+        bounds.add(&reference.bounds);
         let counts = [position, count - position];
-        let cost = heuristic.split_cost(parent_area, [bounds.half_area(), areas[position]], counts);
-        // Boxes are filled in for the winner only.
-        let candidate = SplitCandidate {
-            axis,
-            position,
-            cost,
-            bounds: [bounds, Aabb::EMPTY],
-            counts,
-        };
-        keep_better(&mut best, candidate);
+        let rank = Rank::new(node_cost.split([bounds.half_area(), area], counts), counts);
+        if rank.beats(best) {
+            (best, best_position) = (rank, Some(position));
+        }
     }
-    best
+    best_position.map(|position| SplitCandidate {
+        axis,
+        position,
+        cost: best.cost,
+        counts: [position, count - position],
+    })
 }
 
 /// `areas[i]` becomes the half area around `references[i..]`.
 fn record_areas_from_end(references: &[Reference], areas: &mut [f64]) {
-    let mut bounds = Aabb::EMPTY;
+    let mut bounds = GrowingBox::empty();
     for (reference, area) in references.iter().zip(areas).rev() {
-        bounds = bounds.union(&reference.bounds);
+        bounds.add(&reference.bounds);
         *area = bounds.half_area();
     }
 }
@@ -52,6 +56,7 @@ fn record_areas_from_end(references: &[Reference], areas: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
 
     #[test]
     fn two_clusters_are_cut_apart() {
