@@ -1,0 +1,130 @@
+//! One call that checks a structure on every scene family.
+
+use std::fmt;
+
+use super::agreement::{Disagreement, Expected};
+use super::{families, rays};
+use crate::error::BuildError;
+use crate::{AccelerationStructure, Triangle};
+
+/// How much to check.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Scenes per family at the small size, each from a seed of its own.
+    pub seeds: u64,
+    /// The small size, in triangles.
+    pub triangles: usize,
+    /// Rays per small scene.
+    pub rays: usize,
+    /// Rays per scene at the family's full size, of which there is one.
+    pub full_size_rays: usize,
+}
+
+impl Default for Effort {
+    /// 24 small scenes of at most 2,000 triangles with 200 rays each, and one of
+    /// full size with 16 rays, per family.
+    fn default() -> Self {
+        Self {
+            seeds: 24,
+            triangles: 2000,
+            rays: 200,
+            full_size_rays: 16,
+        }
+    }
+}
+
+/// What was checked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Checked {
+    /// Scene families.
+    pub families: usize,
+    /// Scenes.
+    pub scenes: usize,
+    /// Rays.
+    pub rays: usize,
+    /// Rays that hit something.
+    pub hits: usize,
+}
+
+/// A scene that a structure does not handle as brute force does.
+#[derive(Clone, Debug)]
+pub struct FamilyFailure {
+    /// The family's name.
+    pub family: &'static str,
+    /// The seed of the scene.
+    pub seed: u64,
+    /// The size asked for, in triangles.
+    pub triangles: usize,
+    /// What went wrong.
+    pub problem: Problem,
+}
+
+/// What went wrong with a scene.
+#[derive(Clone, Debug)]
+pub enum Problem {
+    /// The structure was not built.
+    Build(BuildError),
+    /// Rays are answered differently; the first of them.
+    Disagreement(usize, Box<Disagreement>),
+}
+
+impl fmt::Display for FamilyFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            family,
+            seed,
+            triangles,
+            problem,
+        } = self;
+        write!(f, "family {family}, seed {seed}, {triangles} triangles: ")?;
+        match problem {
+            Problem::Build(error) => write!(f, "{error}"),
+            Problem::Disagreement(count, first) => {
+                write!(f, "{count} rays are answered differently; the first: {first}")
+            }
+        }
+    }
+}
+
+/// Checks the structure that `build` makes against brute force on every scene
+/// family: closest hit, any hit and all hits of every kind of ray, equal in
+/// every bit. `build` must leave invalid primitives out.
+///
+/// # Errors
+/// The first scene that fails, reproducible from its family, seed and size.
+pub fn check_families<A: AccelerationStructure>(
+    effort: &Effort,
+    build: impl Fn(&[Triangle]) -> Result<A, BuildError>,
+) -> Result<Checked, FamilyFailure> {
+    let mut checked = Checked::default();
+    for family in families::all() {
+        checked.families += 1;
+        for seed in 0..=effort.seeds {
+            // The last scene is the one at full size.
+            let (triangles, rays) = if seed < effort.seeds {
+                (effort.triangles.min(family.full_size), effort.rays)
+            } else {
+                (family.full_size, effort.full_size_rays)
+            };
+            let scene = family.scene(seed, triangles);
+            let fail = |problem| FamilyFailure {
+                family: family.name,
+                seed,
+                triangles,
+                problem,
+            };
+            let rays = rays::mixed(&scene, seed, rays);
+            let expected = Expected::new(&scene, rays).map_err(|error| fail(Problem::Build(error)))?;
+            let structure = build(&scene).map_err(|error| fail(Problem::Build(error)))?;
+            let disagreements = expected.disagreements(&structure);
+            if let Some(first) = disagreements.first() {
+                let first = Box::new(first.clone());
+                return Err(fail(Problem::Disagreement(disagreements.len(), first)));
+            }
+            checked.scenes += 1;
+            checked.rays += expected.rays.len();
+            checked.hits += expected.hits();
+        }
+    }
+    Ok(checked)
+}
