@@ -10,3 +10,13 @@ pub struct Mesh {
     /// Three indices into `positions` per triangle.
     pub triangles: Vec<[u32; 3]>,
 }
+
+impl Mesh {
+    /// The three corners of a triangle, in its order.
+    ///
+    /// # Panics
+    /// If there is no such triangle or one of its indices has no position.
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|index| self.positions[index as usize])
+    }
+}
