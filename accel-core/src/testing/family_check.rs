@@ -80,7 +80,10 @@ impl fmt::Display for FamilyFailure {
         match problem {
             Problem::Build(error) => write!(f, "{error}"),
             Problem::Disagreement(count, first) => {
-                write!(f, "{count} rays are answered differently; the first: {first}")
+                write!(
+                    f,
+                    "{count} rays are answered differently; the first: {first}"
+                )
             }
         }
     }
@@ -114,7 +117,8 @@ pub fn check_families<A: AccelerationStructure>(
                 problem,
             };
             let rays = rays::mixed(&scene, seed, rays);
-            let expected = Expected::new(&scene, rays).map_err(|error| fail(Problem::Build(error)))?;
+            let expected =
+                Expected::new(&scene, rays).map_err(|error| fail(Problem::Build(error)))?;
             let structure = build(&scene).map_err(|error| fail(Problem::Build(error)))?;
             let disagreements = expected.disagreements(&structure);
             if let Some(first) = disagreements.first() {
