@@ -85,7 +85,7 @@ pub enum ObjError {
     },
     /// The whole file was read and holds no face.
     #[error(
-        "{}: holds no triangles: {lines} lines, {vertices} vertices, 0 faces{}",
+        "{}: holds no triangles (lines: {lines}, vertices: {vertices}, faces: 0){}",
         file.display(),
         unknown_hint(*unknown, *first_unknown)
     )]
@@ -178,6 +178,6 @@ pub enum StatementError {
 
 fn unknown_hint(unknown: u64, first: Option<u64>) -> String {
     first.map_or_else(String::new, |line| {
-        format!("; {unknown} lines are no OBJ statements, the first of them line {line}")
+        format!("; lines that are no OBJ statements: {unknown}, the first of them line {line}")
     })
 }

@@ -19,8 +19,9 @@ pub enum FaultKind {
     /// A face that names the same vertex twice in a row. It is kept, and
     /// yields triangles without area.
     RepeatedCorner,
-    /// A polygon that crosses itself, has no area, or has a vertex that is not
-    /// finite: no split is right, so that it is cut as a fan.
+    /// A polygon that has no area, has a vertex that is not finite, or was
+    /// found to cross itself (not every crossing is noticed): no split is
+    /// right, and what is left of it when that shows is cut as a fan.
     UnsplittablePolygon,
     /// A point or polyline (`p`, `l`), left out.
     PointOrLine,
@@ -42,7 +43,7 @@ impl FaultKind {
             Self::UnusedVertex => "vertices that no face uses (left out)",
             Self::RepeatedCorner => "faces that repeat a corner (kept)",
             Self::UnsplittablePolygon => {
-                "polygons that cross themselves or have no area (cut as fans)"
+                "polygons that cross themselves, have no area or are not finite (cut as fans)"
             }
             Self::PointOrLine => "points and polylines (left out)",
             Self::FreeForm => "statements of free-form curves and surfaces (left out)",
@@ -66,19 +67,13 @@ pub struct Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            formatter,
-            "{} {}: line",
-            self.count,
-            self.kind.description()
-        )?;
+        write!(formatter, "{}: {}", self.kind.description(), self.count)?;
         for (nth, line) in self.first_lines.iter().enumerate() {
-            let separator = if nth == 0 { " " } else { ", " };
+            let separator = if nth == 0 { " (line " } else { ", " };
             write!(formatter, "{separator}{line}")?;
         }
-        if self.count > self.first_lines.len() as u64 {
-            formatter.write_str(", ...")?;
-        }
+        let more = self.count > self.first_lines.len() as u64;
+        formatter.write_str(if more { ", ...)" } else { ")" })?;
         Ok(())
     }
 }
@@ -161,8 +156,8 @@ mod tests {
         report.add(FaultKind::FreeForm, 3);
         assert_eq!(
             report.to_string(),
-            "7 points and polylines (left out): line 10, 11, 12, 13, 14, ...\n\
-             1 statements of free-form curves and surfaces (left out): line 3"
+            "points and polylines (left out): 7 (line 10, 11, 12, 13, 14, ...)\n\
+             statements of free-form curves and surfaces (left out): 1 (line 3)"
         );
     }
 }

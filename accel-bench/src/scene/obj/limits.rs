@@ -3,7 +3,7 @@
 /// Upper bounds on what one OBJ file may hold. Each is inclusive, and each is
 /// checked before memory for what would exceed it is allocated.
 ///
-/// Loading takes about 100 bytes per triangle and 60 per vertex at its peak,
+/// Loading takes about 120 bytes per triangle and 90 per vertex at its peak,
 /// so that a program with little memory lowers `triangles` and `vertices`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObjLimits {
@@ -16,7 +16,8 @@ pub struct ObjLimits {
     /// Triangles, after polygons are split.
     pub triangles: u32,
     /// Corners of one polygon. Splitting a concave polygon takes time
-    /// proportional to the square of its corners: a second for 16,384.
+    /// proportional to the square of its corners: less than a
+    /// second for 16,384.
     pub polygon_corners: u32,
 }
 

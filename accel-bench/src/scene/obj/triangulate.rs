@@ -27,8 +27,8 @@ pub(super) struct Triangulator {
 impl Triangulator {
     /// Appends `corners.len() - 2` triangles in the orientation of the polygon,
     /// whose corners (at least three) are indices into `positions`. False if
-    /// it crosses itself, has no area or is not finite: what cannot be split
-    /// properly is cut as a fan.
+    /// it is found to cross itself, has no area or is not finite: what cannot
+    /// be split properly is cut as a fan.
     pub fn split(
         &mut self,
         corners: &[u32],
@@ -55,11 +55,18 @@ impl Triangulator {
         self.ring.reset(count);
         self.obstacles.clear();
         self.candidates.clear();
+        let mut notched = false;
         for corner in 0..count {
             self.candidates.push_back(corner);
-            if self.turn(corner) <= 0.0 {
+            let turn = self.turn(corner);
+            if turn <= 0.0 {
                 self.obstacles.push(corner);
             }
+            notched |= turn < 0.0;
+        }
+        if !notched {
+            // Only left turns and yet not convex: it winds round twice.
+            return self.cut_the_rest(count, emit);
         }
         let mut left = count;
         while left > 3 {
@@ -75,12 +82,12 @@ impl Triangulator {
             self.candidates.extend([before, after]);
             left -= 1;
         }
-        self.cut_the_rest(left, emit);
-        true
+        self.cut_the_rest(left, emit)
     }
 
-    /// The fan of what remains: one triangle, or a polygon without an ear,
-    /// which crosses itself.
+    /// The fan of what remains: one triangle, or a polygon without an ear. True
+    /// if it is a triangle of the right orientation; else the outline crosses
+    /// itself.
     fn cut_the_rest(&self, left: usize, emit: &mut impl FnMut([usize; 3])) -> bool {
         let first = self.ring.first();
         let mut second = self.ring.neighbours(first).1;
@@ -89,7 +96,7 @@ impl Triangulator {
             emit([first, second, third]);
             second = third;
         }
-        left == 3
+        left == 3 && self.turn(first) >= 0.0
     }
 
     /// Positive where the outline turns left, zero where it runs straight.
