@@ -59,7 +59,8 @@ fn main() -> Result<(), BuildError> {
     assert!(down.wavelength_nanometres > 0.0);
 
     // Own triangles.
-    let triangles = [0.0, 1.0].map(|y| Triangle::new([-1.0, y, -1.0], [3.0, y, -1.0], [-1.0, y, 3.0]));
+    let triangles =
+        [0.0, 1.0].map(|y| Triangle::new([-1.0, y, -1.0], [3.0, y, -1.0], [-1.0, y, 3.0]));
     let bvh = BvhBuilder::default().build(&triangles)?;
     let hit = bvh.closest_hit(&down).expect("both triangles lie below");
     assert_eq!((hit.id, hit.t), (1, 8.0));
@@ -73,15 +74,23 @@ fn main() -> Result<(), BuildError> {
     // A bounce: normal, side and a safe origin come with the hit.
     let surface = bvh.surface(&down, &hit).expect("the hit is of this tree");
     let bounce = RaySegment::new(surface.origin_towards(Vec3::Y), [0.0, 1.0, 0.0]);
-    assert!(!bvh.any_hit(&bounce), "the bounce does not meet the surface it leaves");
+    assert!(
+        !bvh.any_hit(&bounce),
+        "the bounce does not meet the surface it leaves"
+    );
 
     // Spheres, counting what the traversal does.
-    let spheres: Vec<Sphere> = (0..100).map(|i| Sphere::new([i as f32 * 3.0, 0.0, 0.0], 1.0)).collect();
+    let spheres: Vec<Sphere> = (0..100)
+        .map(|i| Sphere::new([i as f32 * 3.0, 0.0, 0.0], 1.0))
+        .collect();
     let bvh = BvhBuilder::default().build(&spheres)?;
     let mut counters = TraversalCounters::default();
     let hit = bvh.closest_hit_with(&down, &mut counters);
     assert_eq!(hit.map(|hit| hit.id), Some(0));
-    assert!(counters.primitive_tests.sum < 10, "99 of 100 spheres are far off");
+    assert!(
+        counters.primitive_tests.sum < 10,
+        "99 of 100 spheres are far off"
+    );
 
     // The renderer's own primitives.
     let discs: Vec<Disc> = (0..10)

@@ -60,8 +60,8 @@ pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
 
 pub use accel_core::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver, ClosestHit, Filtered, Hit,
-    InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment, RefitError, Sphere,
-    SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics, TreeStatistics, Triangle,
-    ValidationError, glam,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
+    ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment,
+    RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -1,9 +1,24 @@
 //! Every setting on every scene family, against brute force.
 
-use accel_bvh::{BvhBuilder, InvalidPrimitives, LeafRule, ObjectSplit, Triangle};
-use accel_core::testing::family_check::{Effort, check_families};
+use accel_bvh::{
+    AccelerationStructure, BvhBuilder, Hit, InvalidPrimitives, LeafRule, ObjectSplit, Sphere,
+    TraversalCounters, Triangle,
+};
+use accel_core::BruteForce;
+use accel_core::testing::agreement::{Expected, oracle};
+use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::{families, rays, strategy};
+use proptest::prelude::*;
 
-fn check(object_split: ObjectSplit, leaf_rule: LeafRule) {
+/// Enough for a setting that shares its search with one that is checked in full.
+const PART: Effort = Effort {
+    seeds: 4,
+    triangles: 600,
+    rays: 200,
+    full_size_rays: 0,
+};
+
+fn check(effort: &Effort, object_split: ObjectSplit, leaf_rule: LeafRule) -> Checked {
     let builder = BvhBuilder {
         object_split,
         leaf_rule,
@@ -12,30 +27,132 @@ fn check(object_split: ObjectSplit, leaf_rule: LeafRule) {
     };
     let build = |triangles: &[Triangle]| {
         let bvh = builder.build(triangles)?;
-        bvh.validate().unwrap_or_else(|error| panic!("{builder:?}: {error}"));
+        bvh.validate()
+            .unwrap_or_else(|error| panic!("{builder:?}: {error}"));
         Ok(bvh)
     };
-    let checked = check_families(&Effort::default(), build).unwrap_or_else(|error| panic!("{error}"));
-    assert!(checked.families >= 40 && checked.scenes >= 40 * 25, "{checked:?}");
-    assert!(checked.hits > 10_000, "{checked:?}");
+    check_families(effort, build).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn check_in_full(object_split: ObjectSplit, leaf_rule: LeafRule) {
+    let checked = check(&Effort::default(), object_split, leaf_rule);
+    assert!(
+        checked.families >= 40 && checked.scenes >= 40 * 25,
+        "{checked:?}"
+    );
+    assert!(checked.hits > 100_000, "{checked:?}");
 }
 
 #[test]
-fn the_full_sweep_with_sah_leaves_agrees_on_every_family() {
-    check(ObjectSplit::FullSweep, LeafRule::SahUpTo(8));
-}
-
-#[test]
-fn the_full_sweep_with_fixed_leaves_agrees_on_every_family() {
-    check(ObjectSplit::FullSweep, LeafRule::StopAt(8));
+fn the_full_sweep_agrees_on_every_family() {
+    check_in_full(ObjectSplit::FullSweep, LeafRule::SahUpTo(8));
 }
 
 #[test]
 fn the_binned_search_agrees_on_every_family() {
-    check(ObjectSplit::Binned { bins: 32 }, LeafRule::SahUpTo(8));
+    check_in_full(ObjectSplit::Binned { bins: 32 }, LeafRule::SahUpTo(8));
 }
 
 #[test]
-fn few_bins_and_single_leaves_agree_on_every_family() {
-    check(ObjectSplit::Binned { bins: 2 }, LeafRule::StopAt(1));
+fn other_leaf_rules_and_bins_agree_on_every_family() {
+    let settings = [
+        (ObjectSplit::FullSweep, LeafRule::StopAt(8)),
+        (ObjectSplit::FullSweep, LeafRule::SahUpTo(1)),
+        (ObjectSplit::Binned { bins: 64 }, LeafRule::StopAt(8)),
+        (ObjectSplit::Binned { bins: 2 }, LeafRule::StopAt(1)),
+    ];
+    for (object_split, leaf_rule) in settings {
+        let checked = check(&PART, object_split, leaf_rule);
+        assert!(checked.hits > 10_000, "{checked:?}");
+    }
+}
+
+#[test]
+fn rays_without_an_answer_miss_and_visit_nothing() {
+    let scene = families::find("soup-dense").unwrap().scene(1, 500);
+    let bvh = BvhBuilder::default().build(&scene).unwrap();
+    let mut counters = TraversalCounters::default();
+    for ray in rays::without_answer() {
+        assert_eq!(bvh.closest_hit_with(&ray, &mut counters), None);
+        assert!(!bvh.any_hit_with(&ray, &mut counters));
+        assert!(bvh.all_hits_with(&ray, &mut counters).is_empty());
+    }
+    assert_eq!((counters.nodes.sum, counters.box_tests.sum), (0, 0));
+}
+
+#[test]
+fn spheres_agree_with_brute_force() {
+    for seed in 0..20 {
+        let boxes = families::find("soup-mixed-sizes").unwrap().scene(seed, 400);
+        let spheres: Vec<Sphere> = boxes
+            .iter()
+            .map(|triangle| Sphere::new(triangle.a, triangle.a.distance(triangle.b)))
+            .collect();
+        let oracle = BruteForce::new(&spheres).unwrap();
+        for object_split in [ObjectSplit::FullSweep, ObjectSplit::default()] {
+            let builder = BvhBuilder {
+                object_split,
+                ..BvhBuilder::default()
+            };
+            let bvh = builder.build(&spheres).unwrap();
+            bvh.validate().unwrap();
+            for ray in rays::mixed(&boxes, seed, 400) {
+                assert_eq!(bvh.closest_hit(&ray), oracle.closest_hit(&ray), "{ray:?}");
+                assert_eq!(bvh.any_hit(&ray), oracle.any_hit(&ray), "{ray:?}");
+                assert_eq!(bvh.all_hits(&ray), oracle.all_hits(&ray), "{ray:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn filtered_and_batched_queries_agree_with_brute_force() {
+    let scene = families::find("overlapping").unwrap().scene(5, 300);
+    let (bvh, oracle) = (
+        BvhBuilder::default().build(&scene).unwrap(),
+        oracle(&scene).unwrap(),
+    );
+    let rays = rays::mixed(&scene, 6, 2000);
+    let odd = |hit: &Hit| hit.id % 2 == 1;
+    for ray in &rays {
+        assert_eq!(
+            bvh.closest_hit_where(ray, odd),
+            oracle.closest_hit_where(ray, odd)
+        );
+        assert_eq!(bvh.any_hit_where(ray, odd), oracle.any_hit_where(ray, odd));
+        assert_eq!(
+            bvh.all_hits_where(ray, odd),
+            oracle.all_hits_where(ray, odd)
+        );
+    }
+    let single: Vec<_> = rays.iter().map(|ray| oracle.closest_hit(ray)).collect();
+    assert_eq!(bvh.closest_hits(&rays), single);
+    let single: Vec<_> = rays.iter().map(|ray| oracle.any_hit(ray)).collect();
+    assert_eq!(bvh.any_hits(&rays), single);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn any_scene_and_ray_agree(
+        scene in strategy::any_scene(60),
+        rays in prop::collection::vec(strategy::any_ray(), 1..30),
+        bins in 2_usize..=64,
+        leaf_size in 1_usize..10,
+        is_swept: bool,
+    ) {
+        let builder = BvhBuilder {
+            object_split: if is_swept { ObjectSplit::FullSweep } else { ObjectSplit::Binned { bins } },
+            leaf_rule: LeafRule::SahUpTo(leaf_size),
+            invalid_primitives: InvalidPrimitives::Skip,
+            ..BvhBuilder::default()
+        };
+        let bvh = builder.build(&scene).unwrap();
+        bvh.validate().unwrap();
+        let expected = Expected::new(&scene, rays).unwrap();
+        if let Some(first) = expected.disagreements(&bvh).first() {
+            prop_assert!(false, "{first}");
+        }
+    }
 }

@@ -4,7 +4,10 @@ use accel_bvh::{AccelerationStructure, Bvh, BvhBuilder, LeafRule, ObjectSplit, T
 use accel_core::testing::families;
 
 fn in_pool(threads: usize, triangles: &[Triangle], builder: &BvhBuilder) -> Bvh<Triangle> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
     pool.install(|| builder.build(triangles)).unwrap()
 }
 
@@ -24,7 +27,11 @@ fn the_tree_does_not_depend_on_the_number_of_threads() {
                 for threads in [2, 3, 8] {
                     let many = in_pool(threads, &triangles, &builder);
                     assert_eq!(one.node_words(), many.node_words(), "{family} {builder:?}");
-                    assert_eq!(one.outline().ids, many.outline().ids, "{family} {builder:?}");
+                    assert_eq!(
+                        one.outline().ids,
+                        many.outline().ids,
+                        "{family} {builder:?}"
+                    );
                 }
             }
         }

@@ -1,8 +1,6 @@
 //! Refitted trees answer as brute force over the moved primitives does.
 
-use accel_bvh::{
-    AccelerationStructure, BvhBuilder, InvalidPrimitives, ObjectSplit, RefitError, Triangle,
-};
+use accel_bvh::{BvhBuilder, InvalidPrimitives, ObjectSplit, RefitError, Triangle};
 use accel_core::glam::Vec3;
 use accel_core::testing::agreement::Expected;
 use accel_core::testing::{families, rays};
@@ -21,7 +19,13 @@ fn moved(triangles: &[Triangle], by: f32) -> Vec<Triangle> {
 
 #[test]
 fn a_refitted_tree_agrees_with_brute_force_and_is_valid() {
-    for (seed, name) in (0..).zip(["soup", "hairball", "nan-mixed", "one-triangle", "duplicates"]) {
+    for (seed, name) in (0..).zip([
+        "soup",
+        "hairball",
+        "nan-mixed",
+        "one-triangle",
+        "duplicates",
+    ]) {
         let triangles = families::find(name).expect(name).scene(seed, 500);
         for object_split in [ObjectSplit::FullSweep, ObjectSplit::default()] {
             let builder = BvhBuilder {
@@ -46,11 +50,20 @@ fn a_refit_that_fails_leaves_the_tree_as_it_was() {
     let mut bvh = BvhBuilder::default().build(&triangles).unwrap();
     let words = bvh.node_words().to_vec();
     let error = bvh.refit(&triangles[1..]).unwrap_err();
-    assert_eq!(error, RefitError::CountMismatch { given: 99, expected: 100 });
+    assert_eq!(
+        error,
+        RefitError::CountMismatch {
+            given: 99,
+            expected: 100
+        }
+    );
     let mut broken = moved(&triangles, 1.0);
     broken[42].a.x = f32::NAN;
     let error = bvh.refit(&broken).unwrap_err();
-    assert!(matches!(error, RefitError::InvalidPrimitive { id: 42, .. }), "{error}");
+    assert!(
+        matches!(error, RefitError::InvalidPrimitive { id: 42, .. }),
+        "{error}"
+    );
     assert_eq!(bvh.node_words(), words);
     bvh.validate().unwrap();
 }

@@ -38,7 +38,7 @@ pub(super) const FAMILIES: &[Family] = &[
     family(
         "sheet-random",
         "overlapping triangles in one plane",
-        |random, count| flat_soup(random, count),
+        flat_soup,
     ),
     family("flat-x", "a scene without extent in x", |random, count| {
         mapped(flat_soup(random, count), |p| Vec3::new(0.0, p.x, p.y))
