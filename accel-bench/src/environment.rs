@@ -38,7 +38,12 @@ fn cpu_features() -> Vec<String> {
             ("fma", is_x86_feature_detected!("fma")),
             ("avx512f", is_x86_feature_detected!("avx512f")),
         ];
-        features.extend(found.iter().filter(|(_, has)| *has).map(|(name, _)| (*name).to_owned()));
+        features.extend(
+            found
+                .iter()
+                .filter(|(_, has)| *has)
+                .map(|(name, _)| (*name).to_owned()),
+        );
     }
     features
 }
@@ -51,11 +56,20 @@ fn commit() -> Option<String> {
         return None;
     }
     let git = |arguments: &[&str]| {
-        let output = Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
+        let output = Command::new("git")
+            .arg("-C")
+            .arg(folder)
+            .args(arguments)
+            .output()
+            .ok()?;
         let text = String::from_utf8(output.stdout).ok()?;
         output.status.success().then(|| text.trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
     let is_changed = !git(&["status", "--porcelain"])?.is_empty();
-    Some(if is_changed { format!("{commit} (changed since)") } else { commit })
+    Some(if is_changed {
+        format!("{commit} (changed since)")
+    } else {
+        commit
+    })
 }

@@ -62,7 +62,12 @@ static ROWS: &[Row] = &[
         settings: "32 bins, SahUpTo(8), C_t = C_i = 1",
         heuristic: SurfaceAreaHeuristic::default,
         build: |triangles, invalid, observer| {
-            build_bvh(ObjectSplit::Binned { bins: 32 }, triangles, invalid, observer)
+            build_bvh(
+                ObjectSplit::Binned { bins: 32 },
+                triangles,
+                invalid,
+                observer,
+            )
         },
     },
     Row {
@@ -117,9 +122,8 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Row>, String> {
     let mut selected: Vec<&Row> = Vec::new();
     for name in names {
         let before = selected.len();
-        let is_named = |row: &&Row| {
-            row.name == name || (name == "all" && row.name != "brute-force")
-        };
+        let is_named =
+            |row: &&Row| row.name == name || (name == "all" && row.name != "brute-force");
         for row in ROWS.iter().filter(is_named) {
             if selected.iter().all(|other| other.name != row.name) {
                 selected.push(row);
@@ -148,7 +152,10 @@ mod tests {
 
     #[test]
     fn selections_name_each_row_once() {
-        assert_eq!(names(&["bvh-binned", "all"]).unwrap(), ["bvh-binned", "bvh-sweep"]);
+        assert_eq!(
+            names(&["bvh-binned", "all"]).unwrap(),
+            ["bvh-binned", "bvh-sweep"]
+        );
         assert_eq!(names(&["brute-force"]).unwrap(), ["brute-force"]);
         assert!(names(&[]).unwrap().contains(&"bvh-sweep"));
         assert!(names(&["bvh"]).unwrap_err().contains("bvh-sweep"));

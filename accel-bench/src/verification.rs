@@ -73,7 +73,10 @@ impl Expected {
 
     /// The rays that `structure` answers differently, in order.
     pub fn disagreements(&self, structure: &dyn DynStructure) -> Vec<Disagreement> {
-        let chunks = self.rays.par_chunks(CHUNK).zip(self.answers.par_chunks(CHUNK));
+        let chunks = self
+            .rays
+            .par_chunks(CHUNK)
+            .zip(self.answers.par_chunks(CHUNK));
         chunks
             .flat_map_iter(|(rays, expected)| {
                 let actual = answer(structure, self.question, rays);
@@ -137,10 +140,18 @@ mod tests {
             RaySegment::new([0.2, 0.2, 0.0], [0.0, 0.0, 1.0]),
             RaySegment::new([0.9, 0.9, 0.0], [0.0, 0.0, 1.0]),
         ];
-        for (question, different) in [(Question::Closest, 1), (Question::Any, 0), (Question::All, 1)] {
+        for (question, different) in [
+            (Question::Closest, 1),
+            (Question::Any, 0),
+            (Question::All, 1),
+        ] {
             let expected = Expected::new(&oracle, question, rays.clone(), &|_| ());
             assert_eq!(expected.disagreements(&oracle).len(), 0);
-            assert_eq!(expected.disagreements(&other).len(), different, "{question:?}");
+            assert_eq!(
+                expected.disagreements(&other).len(),
+                different,
+                "{question:?}"
+            );
         }
     }
 }

@@ -52,7 +52,11 @@ pub(super) struct SceneOptions {
 
 impl SceneOptions {
     pub(super) fn invalid(&self) -> InvalidPrimitives {
-        if self.skip_invalid { InvalidPrimitives::Skip } else { InvalidPrimitives::Reject }
+        if self.skip_invalid {
+            InvalidPrimitives::Skip
+        } else {
+            InvalidPrimitives::Reject
+        }
     }
 }
 
@@ -189,6 +193,9 @@ mod tests {
     fn compare_is_the_default_command() {
         let bare = Arguments::try_parse_from(["accel-bench", "--rays", "ao,path"]).unwrap();
         assert!(bare.command.is_none());
-        assert_eq!(bare.compare.rays, [RayKind::AmbientOcclusion, RayKind::Path]);
+        assert_eq!(
+            bare.compare.rays,
+            [RayKind::AmbientOcclusion, RayKind::Path]
+        );
     }
 }

@@ -12,7 +12,7 @@ use super::arguments::CompareOptions;
 use super::{build, interrupt, load, ray_finder, ray_kinds, ray_source, with_threads};
 use crate::measure::{self, Timings};
 use crate::progress;
-use crate::rays::{Question, RayKind, RaySet};
+use crate::rays::RaySet;
 use crate::registry::{self, Row, Structure};
 use crate::report::model::{
     Bytes, Cell, HeatMap, MeanMax, Pictures, Quantity, RayRow, Report, Shaded, Spread, Statistics,
@@ -50,11 +50,12 @@ pub(super) fn run(options: &CompareOptions) -> anyhow::Result<bool> {
             options.scene.seed,
         ));
         let mut pictures = Pictures::default();
-        for name in &names {
+        // All of them first: a name that is wrong should not cost the others' work.
+        let scenes = names.iter().map(|name| load(name, &options.scene));
+        for scene in scenes.collect::<anyhow::Result<Vec<Scene>>>()? {
             if interrupt::is_requested() {
                 break;
             }
-            let scene = load(name, &options.scene)?;
             compare_scene(&scene, &rows, options, &mut report, &mut pictures)?;
         }
         Ok((report, pictures))
@@ -80,8 +81,10 @@ fn compare_scene(
         })
         .unwrap_or_default();
     let built = build_rounds(scene, rows, options)?;
-    let structures: Vec<&dyn DynStructure> =
-        built.iter().map(|(structure, _)| structure.as_ref()).collect();
+    let structures: Vec<&dyn DynStructure> = built
+        .iter()
+        .map(|(structure, _)| structure.as_ref())
+        .collect();
     let verified = verify_samples(scene, &structures, &sets, options)?;
     let timings = time(scene, &structures, &sets, options.rounds);
     for (position, row) in rows.iter().enumerate() {
@@ -90,10 +93,17 @@ fn compare_scene(
             .iter()
             .enumerate()
             .map(|(set, rays)| {
-                ray_row(structure.as_ref(), rays, &timings[position][set], verified[position][set])
+                ray_row(
+                    structure.as_ref(),
+                    rays,
+                    &timings[position][set],
+                    verified[position][set],
+                )
             })
             .collect();
-        report.cells.push(cell(scene, row, structure, *build_seconds, rays));
+        report
+            .cells
+            .push(cell(scene, row, structure, *build_seconds, rays));
     }
     draw(scene, rows, &structures, options, pictures);
     Ok(())
@@ -105,7 +115,8 @@ fn build_rounds(
     rows: &[&Row],
     options: &CompareOptions,
 ) -> anyhow::Result<Vec<(Structure, f64)>> {
-    let mut built: Vec<(Option<Structure>, Vec<f64>)> = rows.iter().map(|_| (None, Vec::new())).collect();
+    let mut built: Vec<(Option<Structure>, Vec<f64>)> =
+        rows.iter().map(|_| (None, Vec::new())).collect();
     for _ in 0..options.rounds {
         for (row, (structure, seconds)) in rows.iter().zip(&mut built) {
             if seconds.iter().sum::<f64>() > BUILD_SECONDS {
@@ -136,8 +147,7 @@ fn verify_samples(
     for set in sets {
         let stride = set.rays.len().div_ceil(SAMPLE).max(1);
         let sample = set.rays.iter().step_by(stride).copied().collect();
-        let expected =
-            verification::Expected::new(&oracle, set.kind.question(), sample, &|_| ());
+        let expected = verification::Expected::new(&oracle, set.kind.question(), sample, &|_| ());
         for (structure, verified) in structures.iter().zip(&mut verified) {
             verified.push(Verified {
                 rays: expected.len(),
@@ -216,7 +226,11 @@ fn cell(
     }
 }
 
-fn statistics(scene: &Scene, structure: &Structure, heuristic: &SurfaceAreaHeuristic) -> Statistics {
+fn statistics(
+    scene: &Scene,
+    structure: &Structure,
+    heuristic: &SurfaceAreaHeuristic,
+) -> Statistics {
     let outline = structure.tree_outline();
     let tree = accel_core::TreeStatistics::of(&outline, heuristic);
     Statistics {
@@ -281,11 +295,16 @@ fn present(report: &Report, pictures: &Pictures, options: &CompareOptions) -> an
     let style = table::TableStyle::for_output(std::io::stdout().is_terminal());
     table::print(report, &mut out, style)?;
     let folder = &options.report;
-    fs::create_dir_all(folder).with_context(|| format!("making the folder {}", folder.display()))?;
+    fs::create_dir_all(folder)
+        .with_context(|| format!("making the folder {}", folder.display()))?;
     let page = folder.join("index.html");
     write(&page, |out| Ok(html::write_html(report, pictures, out)?))?;
-    write(&folder.join("report.json"), |out| Ok(json::write(report, out)?))?;
-    write(&folder.join("report.csv"), |out| Ok(csv::write(report, out)?))?;
+    write(&folder.join("report.json"), |out| {
+        Ok(json::write(report, out)?)
+    })?;
+    write(&folder.join("report.csv"), |out| {
+        Ok(csv::write(report, out)?)
+    })?;
     if let Some(path) = &options.json {
         write(path, |out| Ok(json::write(report, out)?))?;
     }
@@ -323,6 +342,5 @@ mod tests {
         for name in DEFAULT_SCENES {
             assert!(crate::scene::embedded::find(name).is_some(), "{name}");
         }
-        assert_eq!(RayKind::Primary.question(), Question::Closest);
     }
 }

@@ -30,7 +30,9 @@ const FAILURE: u8 = 2;
 pub fn run() -> ExitCode {
     interrupt::listen();
     let arguments = Arguments::parse();
-    let command = arguments.command.unwrap_or(Command::Compare(arguments.compare));
+    let command = arguments
+        .command
+        .unwrap_or(Command::Compare(arguments.compare));
     let outcome = match command {
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
@@ -60,7 +62,10 @@ fn with_threads<T: Send>(
 }
 
 /// Loads a scene, tells what was odd about it, and puts the camera in place.
-#[expect(clippy::print_stderr, reason = "notes on the input go beside the results")]
+#[expect(
+    clippy::print_stderr,
+    reason = "notes on the input go beside the results"
+)]
 fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
     let mut scene = Scene::load(name, options.invalid())?;
     if !scene.faults.is_empty() {
@@ -68,7 +73,10 @@ fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
     }
     let skipped = scene.invalid_triangles().len();
     if skipped > 0 {
-        eprintln!("{}: left out {skipped} triangles with corners that are not finite", scene.name);
+        eprintln!(
+            "{}: left out {skipped} triangles with corners that are not finite",
+            scene.name
+        );
     }
     if let Some(camera) = options.camera {
         scene.camera = camera;
@@ -109,5 +117,9 @@ fn ray_source<'a>(
 
 /// The ray kinds of a list, or the default ones.
 fn ray_kinds(kinds: &[RayKind]) -> Vec<RayKind> {
-    if kinds.is_empty() { RayKind::DEFAULT.to_vec() } else { kinds.to_vec() }
+    if kinds.is_empty() {
+        RayKind::DEFAULT.to_vec()
+    } else {
+        kinds.to_vec()
+    }
 }

@@ -22,7 +22,11 @@ const TIME_ROUNDS: usize = 5;
 pub(super) fn run(options: &RenderOptions) -> anyhow::Result<bool> {
     let names = [options.structure.clone()];
     let rows = registry::select(&names).map_err(anyhow::Error::msg)?;
-    anyhow::ensure!(rows.len() == 1, "render takes one structure, not `{}`", options.structure);
+    anyhow::ensure!(
+        rows.len() == 1,
+        "render takes one structure, not `{}`",
+        options.structure
+    );
     with_threads(options.scene.threads, || {
         let scene = load(&options.scene_name, &options.scene)?;
         let structure = build(rows[0], &scene, options.scene.invalid())?;
@@ -55,7 +59,12 @@ fn picture(
 ) -> Picture {
     let count = |value: fn(&TraversalCounters) -> u64| {
         let counters = measure::count_pixels(structure, rays);
-        Picture::Values(counters.iter().map(|counters| value(counters) as u32).collect())
+        Picture::Values(
+            counters
+                .iter()
+                .map(|counters| value(counters) as u32)
+                .collect(),
+        )
     };
     match show {
         Show::Shaded => Picture::Colours(shaded(scene, structure, rays)),
@@ -97,7 +106,9 @@ fn colours(
             let colour = hit.map_or(BACKGROUND, |hit| {
                 colour(ray, scene.triangles[hit.id as usize].normal())
             });
-            (colour.clamp(Vec3::ZERO, Vec3::ONE) * 255.0).to_array().map(|channel| channel as u8)
+            (colour.clamp(Vec3::ZERO, Vec3::ONE) * 255.0)
+                .to_array()
+                .map(|channel| channel as u8)
         })
         .collect()
 }

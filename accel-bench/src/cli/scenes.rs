@@ -17,7 +17,13 @@ pub(super) fn run(options: &ScenesOptions) -> anyhow::Result<bool> {
     }
     for scene in embedded::all() {
         let mesh = scene.mesh();
-        writeln!(out, "{:<14} {:>8} triangles  {}", scene.name, mesh.triangles.len(), scene.description)?;
+        writeln!(
+            out,
+            "{:<14} {:>8} triangles  {}",
+            scene.name,
+            mesh.triangles.len(),
+            scene.description
+        )?;
         if let Some(folder) = &options.export {
             let path = folder.join(format!("{}.obj", scene.name));
             let context = || format!("writing {}", path.display());

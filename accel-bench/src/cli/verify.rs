@@ -58,7 +58,11 @@ struct Trial {
 }
 
 fn verify_scene(scene: &Scene, rows: &[&Row], options: &VerifyOptions) -> anyhow::Result<Tally> {
-    say(&format!("{} ({} triangles)", scene.name, scene.triangles.len()))?;
+    say(&format!(
+        "{} ({} triangles)",
+        scene.name,
+        scene.triangles.len()
+    ))?;
     let invalid = options.scene.invalid();
     let oracle = registry::oracle(&scene.triangles, invalid)?;
     let structures = rows
@@ -111,7 +115,9 @@ fn trials(scene: &Scene, options: &VerifyOptions) -> anyhow::Result<Vec<Trial>> 
         let mut rays = Vec::new();
         for _ in 0..4 {
             let source = ray_source(scene, &finder, (side, side), options.scene.seed);
-            rays = source.map(|source| source.rays(kind).rays).unwrap_or_default();
+            rays = source
+                .map(|source| source.rays(kind).rays)
+                .unwrap_or_default();
             if rays.len() >= options.rays || rays.is_empty() {
                 break;
             }
@@ -148,7 +154,9 @@ fn spread(rays: Vec<RaySegment>, count: usize) -> Vec<RaySegment> {
     if rays.len() <= count {
         return rays;
     }
-    (0..count).map(|index| rays[index * rays.len() / count]).collect()
+    (0..count)
+        .map(|index| rays[index * rays.len() / count])
+        .collect()
 }
 
 fn say(line: &str) -> anyhow::Result<()> {

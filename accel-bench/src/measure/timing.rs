@@ -32,7 +32,11 @@ pub fn time_rounds(
     // Touches all memory once; what the first pass costs is not measured.
     for structure in structures {
         for set in sets {
-            trace(*structure, set.kind.question(), &set.rays[..set.rays.len().min(CHUNK)]);
+            trace(
+                *structure,
+                set.kind.question(),
+                &set.rays[..set.rays.len().min(CHUNK)],
+            );
         }
     }
     for round in 0..rounds {

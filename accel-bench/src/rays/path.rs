@@ -29,6 +29,8 @@ pub(super) fn rays(source: &RaySource<'_>) -> Vec<RaySegment> {
 
 fn trace(source: &RaySource<'_>, ray: &RaySegment) -> Option<Hit> {
     let mut hit = [None];
-    source.structure.trace_closest(std::slice::from_ref(ray), &mut hit);
+    source
+        .structure
+        .trace_closest(std::slice::from_ref(ray), &mut hit);
     hit[0]
 }

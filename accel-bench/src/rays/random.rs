@@ -12,7 +12,8 @@ pub(super) fn rays(source: &RaySource<'_>) -> Vec<RaySegment> {
     (0..count)
         .map(|index| {
             let mut generator = sampling::generator(source.seed ^ 0x5e, index);
-            let [from, to] = [(); 2].map(|()| center + sampling::direction(&mut generator) * radius);
+            let [from, to] =
+                [(); 2].map(|()| center + sampling::direction(&mut generator) * radius);
             RaySegment::new(from, to - from)
         })
         .collect()

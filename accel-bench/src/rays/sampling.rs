@@ -53,5 +53,9 @@ pub(super) fn surface_towards(
 pub(super) fn cosine_direction(surface: &SurfacePoint, generator: &mut Pcg64Mcg) -> Vec3 {
     // The normal plus a uniform direction is cosine-weighted.
     let sum = surface.normal + direction(generator);
-    if sum.length_squared() > 1e-8 { sum.normalize() } else { surface.normal }
+    if sum.length_squared() > 1e-8 {
+        sum.normalize()
+    } else {
+        surface.normal
+    }
 }

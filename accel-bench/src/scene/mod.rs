@@ -88,7 +88,9 @@ impl Scene {
     pub fn invalid_triangles(&self) -> Vec<usize> {
         let is_invalid = |triangle: &Triangle| !triangle.bounds().is_valid();
         let all = self.triangles.iter().enumerate();
-        all.filter(|(_, triangle)| is_invalid(triangle)).map(|(position, _)| position).collect()
+        all.filter(|(_, triangle)| is_invalid(triangle))
+            .map(|(position, _)| position)
+            .collect()
     }
 
     fn of_embedded(embedded: &embedded::EmbeddedScene) -> Result<Self, SceneError> {
@@ -96,7 +98,7 @@ impl Scene {
         Ok(Self {
             name: embedded.name.to_owned(),
             triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
-            camera: embedded.cameras().first().copied().unwrap_or_else(|| Camera::seeing(&mesh)),
+            camera: embedded.camera(),
             faults: String::new(),
         })
     }
@@ -114,7 +116,10 @@ impl Scene {
         let loaded = obj::load(path, &ObjLimits::default())?;
         let mesh = loaded.mesh;
         Ok(Self {
-            name: path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned()),
+            name: path.file_stem().map_or_else(
+                || name.to_owned(),
+                |stem| stem.to_string_lossy().into_owned(),
+            ),
             triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
             camera: Camera::seeing(&mesh),
             faults: loaded.faults.to_string(),
