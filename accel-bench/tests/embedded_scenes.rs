@@ -21,7 +21,7 @@ fn scenes_are_finite_sound_and_about_as_large_as_asked() {
             );
             // Furniture, stems and halls have parts that do not get coarser.
             let floor = 10_000;
-            let (low, high) = (asked * 75 / 100, (asked * 125 / 100).max(floor));
+            let (low, high) = (asked * 3 / 4, (asked * 5 / 4).max(floor));
             assert!(
                 (low..=high).contains(&count),
                 "{} has {count}, asked {asked}",

@@ -30,10 +30,10 @@ fn build(triangles: usize) -> MeshBuilder {
     let mut builder = MeshBuilder::default();
     hall(&mut builder);
     let shafts = COLUMNS * ROWS.len();
-    let per_column = triangles.saturating_sub(builder.triangles()) / shafts;
-    // Of a column's triangles, about a fifth each are shaft and arch, the rest
-    // base and capital.
-    let detail = ((per_column as f32 / 9.0).sqrt() as usize).max(3);
+    let per_column = triangles.saturating_sub(builder.triangles()) as f32 / shafts as f32;
+    // A column with its arch has about 6 d^2 + 24 d + 24 triangles.
+    let detail = ((6.0 * (per_column - 24.0).max(0.0) + 144.0).sqrt() - 12.0) / 6.0;
+    let detail = (detail.round() as usize).max(3);
     for row in ROWS {
         for column in 0..COLUMNS {
             let x = (column as f32 + 0.5) / COLUMNS as f32 * LENGTH - LENGTH / 2.0;

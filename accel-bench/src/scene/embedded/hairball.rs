@@ -15,7 +15,7 @@ pub(super) fn mesh(triangles: usize) -> Mesh {
     let mut builder = MeshBuilder::default();
     let strands = (triangles / (2 * SEGMENTS * SIDES)).max(1);
     for _ in 0..strands {
-        let mut at = uniform(&mut random).normalize_or(Vec3::X) * 0.6;
+        let mut at = uniform(&mut random).normalize_or(Vec3::X) * 0.5;
         let mut heading = at.normalize();
         let mut path = vec![at];
         for _ in 0..SEGMENTS {
@@ -23,7 +23,7 @@ pub(super) fn mesh(triangles: usize) -> Mesh {
             at += heading * 0.06;
             path.push(at);
         }
-        builder.tube(&path, |v| 0.004 * (1.0 - 0.7 * v), SIDES);
+        builder.tube(&path, |v| 0.009 * (1.0 - 0.7 * v), SIDES);
     }
     builder.finish()
 }

@@ -97,7 +97,7 @@ static SCENES: &[EmbeddedScene] = &[
         description: "a furnished room seen from inside",
         default_triangles: 40_000,
         generate: room::mesh,
-        view: upright([2.6, 1.7, 2.2], [-0.6, 0.9, -0.8], 60.0),
+        view: upright([1.9, 1.75, 1.3], [-0.9, 0.75, -0.9], 58.0),
     },
     EmbeddedScene {
         name: "stadium",
@@ -132,7 +132,7 @@ static SCENES: &[EmbeddedScene] = &[
         description: "thin curved strands out of a ball",
         default_triangles: 80_000,
         generate: hairball::mesh,
-        view: upright([0.0, 0.6, 4.6], [0.0, 0.0, 0.0], 40.0),
+        view: upright([0.0, 0.5, 3.3], [0.0, 0.0, 0.0], 38.0),
     },
     EmbeddedScene {
         name: "city",
