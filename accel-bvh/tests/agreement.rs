@@ -7,8 +7,11 @@ use accel_bvh::{
 use accel_core::BruteForce;
 use accel_core::testing::agreement::{Expected, oracle};
 use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::rays::RayKind;
 use accel_core::testing::{families, rays, strategy};
 use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
 
 /// Enough for a setting that shares its search with one that is checked in full.
 const PART: Effort = Effort {
@@ -69,10 +72,11 @@ fn other_leaf_rules_and_bins_agree_on_every_family() {
 
 #[test]
 fn rays_without_an_answer_miss_and_visit_nothing() {
-    let scene = families::find("soup-dense").unwrap().scene(1, 500);
+    let scene = families::find("overlapping-big").unwrap().scene(1, 500);
     let bvh = BvhBuilder::default().build(&scene).unwrap();
     let mut counters = TraversalCounters::default();
-    for ray in rays::without_answer() {
+    let mut random = Pcg64Mcg::seed_from_u64(4);
+    for ray in rays::rays(RayKind::NonFinite, &scene, &mut random, 2000) {
         assert_eq!(bvh.closest_hit_with(&ray, &mut counters), None);
         assert!(!bvh.any_hit_with(&ray, &mut counters));
         assert!(bvh.all_hits_with(&ray, &mut counters).is_empty());
@@ -107,7 +111,7 @@ fn spheres_agree_with_brute_force() {
 
 #[test]
 fn filtered_and_batched_queries_agree_with_brute_force() {
-    let scene = families::find("overlapping").unwrap().scene(5, 300);
+    let scene = families::find("overlapping-big").unwrap().scene(5, 300);
     let (bvh, oracle) = (
         BvhBuilder::default().build(&scene).unwrap(),
         oracle(&scene).unwrap(),
@@ -135,9 +139,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn any_scene_and_ray_agree(
-        scene in strategy::any_scene(60),
-        rays in prop::collection::vec(strategy::any_ray(), 1..30),
+    fn any_scene_and_rays_agree(
+        (scene, rays) in strategy::any_case(60, 30),
         bins in 2_usize..=64,
         leaf_size in 1_usize..10,
         is_swept: bool,
@@ -148,9 +151,9 @@ proptest! {
             invalid_primitives: InvalidPrimitives::Skip,
             ..BvhBuilder::default()
         };
-        let bvh = builder.build(&scene).unwrap();
+        let bvh = builder.build(&scene.triangles).unwrap();
         bvh.validate().unwrap();
-        let expected = Expected::new(&scene, rays).unwrap();
+        let expected = Expected::new(&scene.triangles, rays).unwrap();
         if let Some(first) = expected.disagreements(&bvh).first() {
             prop_assert!(false, "{first}");
         }

@@ -46,7 +46,7 @@ fn a_refitted_tree_agrees_with_brute_force_and_is_valid() {
 
 #[test]
 fn a_refit_that_fails_leaves_the_tree_as_it_was() {
-    let triangles = families::find("soup").unwrap().scene(3, 100);
+    let triangles = families::find("soup-uniform").unwrap().scene(3, 100);
     let mut bvh = BvhBuilder::default().build(&triangles).unwrap();
     let words = bvh.node_words().to_vec();
     let error = bvh.refit(&triangles[1..]).unwrap_err();

@@ -6,7 +6,10 @@ use accel_bvh::{
 use accel_core::TraversalCounters;
 use accel_core::build::median_depth;
 use accel_core::glam::Vec3;
+use accel_core::testing::families::stadium;
 use accel_core::testing::{families, rays};
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
 
 const SPLITS: [ObjectSplit; 2] = [ObjectSplit::FullSweep, ObjectSplit::Binned { bins: 32 }];
 
@@ -28,7 +31,7 @@ fn coincident_primitives_make_balanced_trees() {
     for (family, count) in [
         ("one-point", 1_000_000),
         ("duplicates", 100_000),
-        ("nested", 10_000),
+        ("nested-centroids", 10_000),
     ] {
         let scene = families::find(family).unwrap().scene(1, count);
         for object_split in SPLITS {
@@ -62,6 +65,7 @@ fn the_depth_is_bounded_on_every_family() {
 #[test]
 fn a_thread_with_64_kib_of_stack_builds_and_traverses_the_deepest_family() {
     let deepest = families::all()
+        .iter()
         .map(|family| family.scene(1, 3000))
         .max_by_key(|scene| {
             builder(ObjectSplit::FullSweep)
@@ -93,11 +97,14 @@ fn a_thread_with_64_kib_of_stack_builds_and_traverses_the_deepest_family() {
 
 #[test]
 fn a_figure_costs_hardly_more_in_a_stadium_than_alone() {
-    let scene = families::find("stadium").unwrap().scene(1, 20_000);
-    let is_figure = |triangle: &&Triangle| triangle.a.length() < 100.0;
-    let figure: Vec<Triangle> = scene.iter().filter(is_figure).copied().collect();
-    assert!(figure.len() > 10_000 && figure.len() < scene.len());
-    let mut rays = rays::rays(rays::RayFamily::ThroughEdges, &figure, 3, 20_000);
+    let figure = stadium::figure(20_000);
+    let scene: Vec<Triangle> = figure
+        .iter()
+        .chain(&stadium::stadium(2000))
+        .copied()
+        .collect();
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let mut rays = rays::rays(rays::RayKind::ThroughEdges, &figure, &mut random, 20_000);
     // The others start below the floor and meet it first.
     rays.retain(|ray| ray.origin.y > -1.5);
     for object_split in SPLITS {
@@ -117,7 +124,12 @@ fn a_figure_costs_hardly_more_in_a_stadium_than_alone() {
 
 #[test]
 fn permuting_scaling_and_swapping_axes_change_nothing_that_matters() {
-    for family in ["soup-dense", "integer-grid", "hairball", "t-junctions"] {
+    for family in [
+        "overlapping-big",
+        "integer-soup",
+        "hairball",
+        "t-junction-wall",
+    ] {
         let scene = families::find(family).unwrap().scene(4, 1000);
         let rays = rays::mixed(&scene, 5, 500);
         for object_split in SPLITS {

@@ -4,6 +4,8 @@ use std::io::Write;
 
 use accel_core::testing::rays as adversarial;
 use accel_core::{Primitive, RaySegment, Triangle};
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
 
 use super::arguments::VerifyOptions;
 use super::{build, interrupt, load, ray_finder, ray_source, with_threads};
@@ -135,8 +137,9 @@ fn trials(scene: &Scene, options: &VerifyOptions) -> anyhow::Result<Vec<Trial>> 
         .filter(|triangle| triangle.bounds().is_valid())
         .copied()
         .collect();
-    for family in adversarial::RayFamily::ALL {
-        let rays = adversarial::rays(family, &valid, options.scene.seed, options.rays);
+    for family in adversarial::RayKind::FINITE {
+        let mut random = Pcg64Mcg::seed_from_u64(options.scene.seed);
+        let rays = adversarial::rays(family, &valid, &mut random, options.rays);
         let questions = [(Question::Closest, "closest"), (Question::Any, "any")];
         for (question, name) in questions {
             trials.push(Trial {

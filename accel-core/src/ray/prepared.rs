@@ -58,7 +58,8 @@ impl Interval {
 
 impl PreparedRay {
     /// Prepares `ray`; `None` for one that can hit nothing: a NaN anywhere, an
-    /// infinite origin or direction, a zero direction, or an empty interval.
+    /// infinite origin or direction, a zero direction, or an interval that is
+    /// empty or begins at infinity.
     /// This is the one place where such rays are decided: they miss
     /// everything and visit no node.
     #[inline]
@@ -68,7 +69,7 @@ impl PreparedRay {
         let direction = ray.direction() + Vec3::ZERO;
         let (t_min, t_max) = (ray.t_min(), ray.t_max());
         let usable = origin.is_finite() && direction.is_finite() && direction != Vec3::ZERO;
-        if !usable || t_min.is_nan() {
+        if !usable || t_min.is_nan() || t_min == f32::INFINITY {
             return None;
         }
         let t_min = if t_min > 0.0 { t_min } else { 0.0 };
@@ -232,6 +233,7 @@ mod tests {
             good.with_interval(0.0, nan),
             good.with_interval(2.0, 1.0),
             good.with_interval(0.0, -1.0),
+            good.with_interval(f32::INFINITY, f32::INFINITY),
         ] {
             assert!(PreparedRay::new(&bad).is_none(), "{bad:?}");
         }

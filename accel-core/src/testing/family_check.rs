@@ -12,7 +12,7 @@ use crate::{AccelerationStructure, Triangle};
 pub struct Effort {
     /// Scenes per family at the small size, each from a seed of its own.
     pub seeds: u64,
-    /// The small size, in triangles.
+    /// The small size, in triangles; some seeds take a half or a quarter of it.
     pub triangles: usize,
     /// Rays per small scene.
     pub rays: usize,
@@ -105,7 +105,8 @@ pub fn check_families<A: AccelerationStructure>(
         for seed in 0..=effort.seeds {
             // The last scene is the one at full size.
             let (triangles, rays) = if seed < effort.seeds {
-                (effort.triangles.min(family.full_size), effort.rays)
+                let triangles = effort.triangles >> (seed % 3);
+                (triangles.min(family.full_size), effort.rays)
             } else {
                 (family.full_size, effort.full_size_rays)
             };

@@ -1,87 +1,187 @@
-//! Sheets: everything in a plane.
+//! Scenes that lie in a plane, or in planes that all but coincide.
 
-use std::f32::consts::TAU;
+use std::f32::consts::{FRAC_PI_4, TAU};
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
+use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-use super::shapes::{grid, grid_side, mapped, turned};
-use super::{Family, family, sized};
+use super::super::random::{point_in_cube, rotation, uniform};
+use super::Family;
+use super::shapes::{moved, quad, soup, square_side, surface};
 use crate::Triangle;
-use crate::testing::cube_point;
 
 pub(super) const FAMILIES: &[Family] = &[
-    family("sheet-x", "a grid in a plane of constant x", |_, count| {
-        mapped(sheet(count), |p| Vec3::new(0.25, p.x, p.y))
-    }),
-    family("sheet-y", "a grid in a plane of constant y", |_, count| {
-        mapped(sheet(count), |p| Vec3::new(p.x, -1.5, p.y))
-    }),
-    family("sheet-z", "a grid in a plane of constant z", |_, count| {
-        sheet(count)
-    }),
-    family(
-        "sheet-turned",
-        "a grid in a plane turned by 45 degrees",
-        |_, count| mapped(sheet(count), |p| turned() * p),
+    Family::new(
+        "sheet-x",
+        "A tessellated sheet of constant x.",
+        20_000,
+        sheet::<0>,
     ),
-    family(
-        "sheets-stacked",
-        "parallel sheets, close together",
-        |_, count| {
-            let one = sheet((count / 8).max(2));
-            (0..8)
-                .flat_map(|level| mapped(one.clone(), move |p| p + Vec3::Z * level as f32 * 1e-3))
-                .collect()
-        },
+    Family::new(
+        "sheet-y",
+        "A tessellated sheet of constant y.",
+        20_000,
+        sheet::<1>,
     ),
-    family(
-        "sheet-random",
-        "overlapping triangles in one plane",
-        flat_soup,
+    Family::new(
+        "sheet-z",
+        "A tessellated sheet of constant z.",
+        20_000,
+        sheet::<2>,
     ),
-    family("flat-x", "a scene without extent in x", |random, count| {
-        mapped(flat_soup(random, count), |p| Vec3::new(0.0, p.x, p.y))
-    }),
-    sized(
-        2000,
-        family(
-            "circle",
-            "a triangulated circle in a coordinate plane",
-            |_, count| circle(count),
-        ),
+    Family::new(
+        "sheet-rotated-45",
+        "A sheet on x = y: the worst fit of axis-aligned boxes.",
+        20_000,
+        sheet_rotated_45,
     ),
-    sized(
-        2000,
-        family(
-            "circle-turned",
-            "a triangulated circle, turned",
-            |_, count| mapped(circle(count), |p| turned() * p),
-        ),
+    Family::new(
+        "sheet-rotated",
+        "A sheet in a random plane that its vertices meet only nearly.",
+        20_000,
+        sheet_rotated,
+    ),
+    Family::new(
+        "circle-axis-aligned",
+        "A disc of small triangles of constant y (Ize 2008, section 3.2).",
+        20_000,
+        circle,
+    ),
+    Family::new(
+        "circle-rotated-45",
+        "The disc turned onto x = y: one triangle's plane misses those \
+         across the disc (Ize 2008, section 3.2).",
+        20_000,
+        circle_rotated_45,
+    ),
+    Family::new(
+        "coplanar-overlapping",
+        "Random triangles that overlap within one tilted plane.",
+        20_000,
+        coplanar_overlapping,
+    ),
+    Family::new(
+        "flat-x",
+        "Random triangles without extent in x.",
+        20_000,
+        flat::<0>,
+    ),
+    Family::new(
+        "flat-y",
+        "Random triangles without extent in y.",
+        20_000,
+        flat::<1>,
+    ),
+    Family::new(
+        "flat-z",
+        "Random triangles without extent in z.",
+        20_000,
+        flat::<2>,
+    ),
+    Family::new(
+        "layers-one-ulp-apart",
+        "Sheets at neighbouring f32 heights: hits whose t nearly tie.",
+        20_000,
+        layers,
+    ),
+    Family::new(
+        "t-junction-wall",
+        "A wall whose rows are cut in different numbers of columns.",
+        20_000,
+        t_junction_wall,
     ),
 ];
 
-fn sheet(count: usize) -> Vec<Triangle> {
-    let side = grid_side(count);
-    grid(side, side, |x, y| {
-        Vec3::new(x as f32, y as f32, 0.0) / side as f32
+/// A square from -1 to 1 with `axis` constant, and its vertices moved within
+/// the plane so that seeds differ.
+fn square_sheet(rng: &mut Pcg64Mcg, count: usize, axis: usize) -> Vec<Triangle> {
+    let side = square_side(count);
+    let height = uniform(rng, -2.0, 2.0);
+    let skew = uniform(rng, -0.5, 0.5);
+    surface(side, side, |column, row| {
+        let u = 2.0 * column as f32 / side as f32 - 1.0;
+        let v = 2.0 * row as f32 / side as f32 - 1.0;
+        let mut point = [0.0; 3];
+        point[axis] = height;
+        point[(axis + 1) % 3] = u;
+        point[(axis + 2) % 3] = v + skew * u;
+        Vec3::from_array(point)
     })
 }
 
-fn flat_soup(random: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
-    super::shapes::repeat(count, |_| {
-        let center = cube_point(random);
-        Triangle::from([(); 3].map(|()| (center + cube_point(random) * 0.1).with_z(0.0)))
+fn sheet<const AXIS: usize>(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    square_sheet(rng, count, AXIS)
+}
+
+fn sheet_rotated_45(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let turn = Quat::from_rotation_z(FRAC_PI_4);
+    moved(&square_sheet(rng, count, 1), |vertex| turn * vertex)
+}
+
+fn sheet_rotated(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let turn = rotation(rng);
+    moved(&square_sheet(rng, count, 2), |vertex| turn * vertex)
+}
+
+/// Rings around a center: outer triangles are as small as inner ones, and far
+/// apart from those on the other side.
+fn circle(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let rings = square_side(count / 4);
+    let segments = (count / (2 * rings)).max(3);
+    let height = uniform(rng, -1.0, 1.0);
+    let phase = uniform(rng, 0.0, TAU);
+    surface(segments, rings, |column, row| {
+        let angle = phase + (column % segments) as f32 / segments as f32 * TAU;
+        let radius = row as f32 / rings as f32;
+        Vec3::new(radius * angle.cos(), height, radius * angle.sin())
     })
 }
 
-/// The circle of Ize 2008, section 3.2: a fan around its middle.
-fn circle(count: usize) -> Vec<Triangle> {
-    let rim = |i: usize| {
-        let angle = (i % count) as f32 / count as f32 * TAU;
-        Vec3::new(angle.cos(), angle.sin(), 0.0)
-    };
-    (0..count)
-        .map(|i| Triangle::from([Vec3::ZERO, rim(i), rim(i + 1)]))
-        .collect()
+fn circle_rotated_45(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let turn = Quat::from_rotation_z(FRAC_PI_4);
+    moved(&circle(rng, count), |vertex| turn * vertex)
+}
+
+fn coplanar_overlapping(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let turn = rotation(rng);
+    moved(&flat::<2>(rng, count), |vertex| turn * vertex)
+}
+
+fn flat<const AXIS: usize>(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let height = uniform(rng, -2.0, 2.0);
+    let scene = soup(rng, count, 0.2);
+    moved(&scene, |mut vertex| {
+        vertex[AXIS] = height;
+        vertex
+    })
+}
+
+fn layers(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let corner = point_in_cube(rng);
+    let mut height = uniform(rng, 0.5, 1.0);
+    let mut scene = Vec::with_capacity(count);
+    while scene.len() < count {
+        let [a, b] = [corner.with_z(height), (corner + 1.0).with_z(height)];
+        scene.extend(quad([a, a.with_x(b.x), b, b.with_x(a.x)]));
+        height = height.next_up();
+    }
+    scene
+}
+
+/// Vertices of one row lie on the edges of the next, rarely representable
+/// there: what looks closed has cracks and overlaps of a last bit.
+fn t_junction_wall(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let rows = square_side(count);
+    let turn = rotation(rng);
+    let mut wall = Vec::with_capacity(count);
+    for row in 0..rows {
+        let columns = (rows - 1).max(1) + rng.random_range(0..=1);
+        let point = |column, level: usize| {
+            let x = column as f32 / columns as f32;
+            turn * Vec3::new(x, (row + level) as f32 / rows as f32, 0.0)
+        };
+        wall.extend(surface(columns, 1, point));
+    }
+    wall
 }

@@ -1,94 +1,103 @@
-//! Scenes with little to tell primitives apart.
+//! Scenes of nothing, of next to nothing, and of triangles without area.
 
 use glam::Vec3;
 use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
 
-use super::shapes::{around, repeat, soup};
-use super::{Family, family, sized};
+use super::super::random::{point_in_cube, uniform};
+use super::Family;
+use super::shapes::{repeated, soup, triangle_near};
 use crate::Triangle;
-use crate::testing::cube_point;
 
-pub(super) const FAMILIES: &[Family] =
-    &[
-        sized(1, family("empty", "no triangles at all", |_, _| Vec::new())),
-        sized(
-            1,
-            family("one-triangle", "a single triangle", |random, count| {
-                soup(random, count.min(1), 1.0)
-            }),
-        ),
-        family("points", "triangles that are points", |random, count| {
-            repeat(count, |_| Triangle::from([cube_point(random); 3]))
-        }),
-        family("lines", "triangles that are lines", |random, count| {
-            repeat(count, |_| {
-                let [from, to] = [(); 2].map(|()| cube_point(random));
-                Triangle::from([from, to, from.lerp(to, 0.5)])
-            })
-        }),
-        family(
-            "points-and-lines",
-            "degenerate triangles among good ones",
-            |random, count| {
-                repeat(count, |i| {
-                    let [a, b, c] = [(); 3].map(|()| cube_point(random));
-                    Triangle::from([[a, a, a], [a, b, a], [a, b, c]][i % 3])
-                })
-            },
-        ),
-        sized(
-            1_000_000,
-            family(
-                "one-point",
-                "all primitives at one point",
-                |random, count| vec![Triangle::from([cube_point(random); 3]); count],
-            ),
-        ),
-        sized(
-            100_000,
-            family("duplicates", "one triangle, many times", |random, count| {
-                vec![around(random, Vec3::ZERO, 1.0); count]
-            }),
-        ),
-        family(
-            "duplicates-of-some",
-            "every triangle several times",
-            |random, count| {
-                let some = soup(random, (count / 10).max(1), 0.5);
-                repeat(count, |i| some[i % some.len()])
-            },
-        ),
-        sized(
-            10_000,
-            family("nested", "one centroid, sizes nested", |random, count| {
-                let axis = cube_point(random);
-                repeat(count, |i| {
-                    let size = (i + 1) as f32 / count as f32;
-                    let corners = [Vec3::X, Vec3::Y, -Vec3::X - Vec3::Y];
-                    Triangle::from(corners.map(|corner| (corner + axis.cross(corner)) * size))
-                })
-            }),
-        ),
-        family(
-            "two-faced",
-            "each triangle twice, turned over",
-            |random, count| {
-                let some = soup(random, count.div_ceil(2), 0.3);
-                let faces = some
-                    .iter()
-                    .flat_map(|t| [*t, Triangle::from([t.a, t.c, t.b])]);
-                faces.collect()
-            },
-        ),
-        family(
-            "integer-grid",
-            "corners on few integers: ties everywhere",
-            |random, count| {
-                repeat(count, |_| {
-                    Triangle::from([(); 3].map(|()| {
-                        Vec3::from([(); 3].map(|()| random.random_range(-4_i32..=4) as f32))
-                    }))
-                })
-            },
-        ),
-    ];
+pub(super) const FAMILIES: &[Family] = &[
+    Family::new("empty", "No triangle at all.", 0, empty),
+    Family::new("one-triangle", "A tree of a single leaf.", 1, one_triangle),
+    Family::new(
+        "points",
+        "Triangles with three equal corners, boxes without extent.",
+        20_000,
+        points,
+    ),
+    Family::new(
+        "lines-repeated-vertex",
+        "Triangles with two equal corners, in every arrangement.",
+        20_000,
+        lines_repeated_vertex,
+    ),
+    Family::new(
+        "lines-collinear",
+        "Triangles whose three distinct corners lie on a line exactly.",
+        20_000,
+        lines_collinear,
+    ),
+    Family::new(
+        "lines-axis-parallel",
+        "Lines along the axes: boxes with extent in one axis only.",
+        20_000,
+        lines_axis_parallel,
+    ),
+    Family::new(
+        "degenerate-mixed",
+        "Points and lines scattered among sound triangles.",
+        20_000,
+        mixed,
+    ),
+];
+
+fn empty(_: &mut Pcg64Mcg, _: usize) -> Vec<Triangle> {
+    Vec::new()
+}
+
+fn one_triangle(rng: &mut Pcg64Mcg, _: usize) -> Vec<Triangle> {
+    vec![triangle_near(rng, Vec3::ZERO, 1.0)]
+}
+
+fn points(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    repeated(count, || [point_in_cube(rng); 3].into())
+}
+
+fn lines_repeated_vertex(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    repeated(count, || {
+        let (a, b) = (point_in_cube(rng), point_in_cube(rng));
+        let mut corners = [a, a, b];
+        corners.rotate_left(rng.random_range(0..3));
+        corners.into()
+    })
+}
+
+/// Small multiples of 1/64 are exact in f32, and so is the collinearity.
+fn lines_collinear(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let mut exact = |limit: i32| {
+        let coordinates = [(); 3].map(|()| rng.random_range(-limit..=limit) as f32 / 64.0);
+        (Vec3::from_array(coordinates), rng.random_range(0..3))
+    };
+    repeated(count, || {
+        let (start, turn) = exact(64);
+        let (step, _) = exact(8);
+        let mut corners = [start, start + step, start + 3.0 * step];
+        corners.rotate_left(turn);
+        corners.into()
+    })
+}
+
+fn lines_axis_parallel(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    repeated(count, || {
+        let axis = Vec3::AXES[rng.random_range(0..3)];
+        let start = point_in_cube(rng);
+        let end = start + axis * uniform(rng, 0.1, 1.0);
+        Triangle::new(start, end, start.lerp(end, 0.5))
+    })
+}
+
+fn mixed(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let mut scene = soup(rng, count, 0.1);
+    for triangle in &mut scene {
+        match rng.random_range(0..6) {
+            0 => *triangle = [triangle.a; 3].into(),
+            1 => triangle.b = triangle.a,
+            2 => triangle.c = triangle.a.lerp(triangle.b, 0.5),
+            _ => {}
+        }
+    }
+    scene
+}

@@ -1,62 +1,131 @@
-//! Scenes as they come.
+//! Scenes like those that people have.
 
 use glam::Vec3;
 use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
 
-use super::shapes::{grid, grid_side, repeat, soup, strip};
-use super::{Family, family};
-use crate::testing::{cube_point, direction};
+use super::super::random::{log_uniform, point_in_cube, uniform};
+use super::Family;
+use super::shapes::{axis_box, repeated, soup, sphere, square_side, surface, triangle_near};
+use crate::Triangle;
 
 pub(super) const FAMILIES: &[Family] = &[
-    family("soup", "small triangles everywhere", |random, count| {
-        soup(random, count, 0.1)
-    }),
-    family(
-        "soup-dense",
-        "larger triangles everywhere",
-        |random, count| soup(random, count, 0.5),
+    Family::new(
+        "soup-uniform",
+        "Small triangles of like size, evenly spread.",
+        20_000,
+        |rng, count| soup(rng, count, 0.05),
     ),
-    family("terrain", "a height field", |random, count| {
-        let side = grid_side(count);
-        let phase = cube_point(random) * 9.0;
-        grid(side, side, |x, z| {
-            let (x, z) = (x as f32 / side as f32, z as f32 / side as f32);
-            let height = (x * 19.0 + phase.x).sin() * 0.1 + (z * 23.0 + phase.z).cos() * 0.07;
-            Vec3::new(x, height, z)
-        })
-    }),
-    family("hairball", "strands out of a ball", |random, count| {
-        let per_strand = 16;
-        let strands = (0..count.div_ceil(2 * per_strand)).flat_map(|_| {
-            let mut at = direction(random);
-            let mut heading = at;
-            let mut strand = Vec::with_capacity(2 * per_strand);
-            for _ in 0..per_strand {
-                heading = (heading + direction(random) * 0.4).normalize();
-                let next = at + heading * 0.1;
-                strand.extend(strip(random, at, next, 0.004));
-                at = next;
-            }
-            strand
-        });
-        strands.collect()
-    }),
-    family("foliage", "leaves in heaps", |random, count| {
-        repeat(count, |_| {
-            let bough = (cube_point(random) * 3.0).round() + direction(random) * 0.3;
-            super::shapes::around(random, bough, 0.05)
-        })
-    }),
-    family("towers", "tall boxes on a floor", |random, count| {
-        let towers = (0..count.div_ceil(8)).flat_map(|_| {
-            let at = (cube_point(random) * 10.0).with_y(0.0).round();
-            let height = random.random_range(0.5_f32..8.0);
-            let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Z, Vec3::Z].map(|c| at + c * 0.8);
-            (0..4).flat_map(move |side| {
-                let (from, to) = (corners[side], corners[(side + 1) % 4]);
-                super::shapes::quad([from, to, to + Vec3::Y * height, from + Vec3::Y * height])
-            })
-        });
-        towers.collect()
-    }),
+    Family::new(
+        "soup-mixed-sizes",
+        "Triangles of 1e-4 to 1, each magnitude as frequent.",
+        20_000,
+        soup_mixed_sizes,
+    ),
+    Family::new(
+        "clustered",
+        "Dense clusters of different sizes with void between.",
+        20_000,
+        clustered,
+    ),
+    Family::new(
+        "overlapping-big",
+        "Triangles as big as the scene: no split parts them.",
+        4_000,
+        |rng, count| soup(rng, count, 1.0),
+    ),
+    Family::new(
+        "touching-spheres",
+        "Tessellated spheres in a lattice, each touching the next in a vertex.",
+        20_000,
+        touching_spheres,
+    ),
+    Family::new("terrain", "A rolling height field.", 20_000, terrain),
+    Family::new(
+        "city-blocks",
+        "Closed boxes of different heights on a street grid.",
+        20_000,
+        city_blocks,
+    ),
+    Family::new(
+        "foliage",
+        "Leaves in all poses, dense at the crown's middle.",
+        20_000,
+        foliage,
+    ),
 ];
+
+fn soup_mixed_sizes(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    repeated(count, || {
+        let size = log_uniform(rng, 1e-4, 1.0) as f32;
+        let center = point_in_cube(rng);
+        triangle_near(rng, center, size)
+    })
+}
+
+fn clustered(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let clusters: Vec<_> = (0..8)
+        .map(|_| (point_in_cube(rng), log_uniform(rng, 1e-4, 0.1) as f32))
+        .collect();
+    repeated(count, || {
+        let (middle, radius) = clusters[rng.random_range(0..clusters.len())];
+        let center = middle + radius * point_in_cube(rng);
+        triangle_near(rng, center, 0.1 * radius)
+    })
+}
+
+fn touching_spheres(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    const RINGS: usize = 6;
+    const TRIANGLES: usize = 4 * RINGS * RINGS;
+    let spheres = count.div_ceil(TRIANGLES);
+    let side = (1..)
+        .find(|side| side * side * side >= spheres)
+        .unwrap_or(1);
+    let corner = (4.0 * point_in_cube(rng)).round();
+    (0..spheres)
+        .flat_map(|index| {
+            let cell = [index % side, index / side % side, index / side / side];
+            let cell = Vec3::from_array(cell.map(|coordinate| coordinate as f32));
+            sphere(corner + cell, 0.5, RINGS)
+        })
+        .collect()
+}
+
+fn terrain(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let side = square_side(count);
+    let waves: Vec<_> = (0..6)
+        .map(|octave| {
+            let frequency = 2f32.powi(octave);
+            (2.0 * frequency * point_in_cube(rng), 0.3 / frequency)
+        })
+        .collect();
+    surface(side, side, |column, row| {
+        let x = 2.0 * column as f32 / side as f32 - 1.0;
+        let z = 2.0 * row as f32 / side as f32 - 1.0;
+        let wave = |(wave, height): &(Vec3, f32)| height * (wave.x * x + wave.y * z + wave.z).sin();
+        Vec3::new(x, waves.iter().map(wave).sum(), z)
+    })
+}
+
+fn city_blocks(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    let houses = count.div_ceil(12);
+    let side = (houses as f64).sqrt().ceil() as usize;
+    (0..houses)
+        .flat_map(|index| {
+            let low = Vec3::new((index % side) as f32, 0.0, (index / side) as f32);
+            let size = Vec3::new(
+                uniform(rng, 0.3, 0.8),
+                log_uniform(rng, 0.2, 8.0) as f32,
+                uniform(rng, 0.3, 0.8),
+            );
+            axis_box(low, low + size)
+        })
+        .collect()
+}
+
+fn foliage(rng: &mut Pcg64Mcg, count: usize) -> Vec<Triangle> {
+    repeated(count, || {
+        let center = point_in_cube(rng) * rng.random::<f32>();
+        triangle_near(rng, center, 0.02)
+    })
+}

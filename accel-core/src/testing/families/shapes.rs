@@ -1,101 +1,97 @@
-//! Building blocks of scenes.
+//! The shapes that several families are made of.
 
-use glam::{Mat3, Vec3};
-use rand::RngExt;
+use glam::Vec3;
 use rand_pcg::Pcg64Mcg;
 
+use super::super::random::point_in_cube;
 use crate::Triangle;
-use crate::testing::{cube_point, direction};
 
-/// `count` triangles, each made from its number.
-pub(super) fn repeat(count: usize, triangle: impl FnMut(usize) -> Triangle) -> Vec<Triangle> {
-    (0..count).map(triangle).collect()
+/// `count` draws of one kind of triangle.
+pub(super) fn repeated(count: usize, triangle: impl FnMut() -> Triangle) -> Vec<Triangle> {
+    std::iter::repeat_with(triangle).take(count).collect()
 }
 
-/// A triangle of about this size around `center`.
-pub(super) fn around(random: &mut Pcg64Mcg, center: Vec3, size: f32) -> Triangle {
-    Triangle::from([(); 3].map(|()| center + cube_point(random) * size))
+/// Three corners drawn from the cube of half width `size` around `center`.
+pub(super) fn triangle_near(rng: &mut Pcg64Mcg, center: Vec3, size: f32) -> Triangle {
+    [(); 3].map(|()| center + point_in_cube(rng) * size).into()
 }
 
-/// A strip from `from` to `to` of this width, two triangles, in a random plane
-/// through its middle line.
-pub(super) fn strip(random: &mut Pcg64Mcg, from: Vec3, to: Vec3, width: f32) -> [Triangle; 2] {
-    let side = (to - from).cross(direction(random)).normalize_or_zero() * width;
-    quad([from, to, to + side, from + side])
+/// `count` triangles of about `size`, spread over the cube from -1 to 1.
+pub(super) fn soup(rng: &mut Pcg64Mcg, count: usize, size: f32) -> Vec<Triangle> {
+    repeated(count, || {
+        let center = point_in_cube(rng);
+        triangle_near(rng, center, size)
+    })
 }
 
-/// Two triangles.
+/// The two halves of a quadrilateral with corners in order of its outline.
 pub(super) fn quad([a, b, c, d]: [Vec3; 4]) -> [Triangle; 2] {
-    [Triangle::from([a, b, c]), Triangle::from([a, c, d])]
+    [Triangle::new(a, b, c), Triangle::new(a, c, d)]
 }
 
-/// A grid of `columns` by `rows` quads; `corner` places its vertices, so that
-/// neighbours share them bit for bit.
-pub(super) fn grid(
+/// A surface of `columns` times `rows` quadrilaterals over the vertices
+/// `point(column, row)`. Neighbours share vertices bit for bit.
+pub(super) fn surface(
     columns: usize,
     rows: usize,
-    corner: impl Fn(usize, usize) -> Vec3,
+    point: impl Fn(usize, usize) -> Vec3,
 ) -> Vec<Triangle> {
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
     cells
-        .flat_map(|(x, y)| {
+        .flat_map(|(column, row)| {
             quad([
-                corner(x, y),
-                corner(x + 1, y),
-                corner(x + 1, y + 1),
-                corner(x, y + 1),
+                point(column, row),
+                point(column + 1, row),
+                point(column + 1, row + 1),
+                point(column, row + 1),
             ])
         })
         .collect()
 }
 
-/// The side of a square grid of at most `triangles` triangles.
-pub(super) fn grid_side(triangles: usize) -> usize {
-    (((triangles / 2) as f64).sqrt() as usize).max(1)
+/// The side of the largest square of quadrilaterals within `count` triangles.
+pub(super) fn square_side(count: usize) -> usize {
+    (count / 2).isqrt().max(1)
 }
 
-/// A sphere of latitude and longitude bands with shared vertices.
-pub(super) fn sphere(center: Vec3, radius: f32, triangles: usize) -> Vec<Triangle> {
-    use std::f32::consts::{PI, TAU};
-    let side = grid_side(triangles).max(3);
-    grid(side, side, |x, y| {
-        // The seam and the poles must come out the same from both sides.
-        let around = if x == side {
-            0.0
-        } else {
-            x as f32 / side as f32 * TAU
-        };
-        let down = y as f32 / side as f32 * PI;
-        let ring = if y == 0 || y == side { 0.0 } else { down.sin() };
-        center + Vec3::new(ring * around.cos(), down.cos(), ring * around.sin()) * radius
+/// The twelve triangles of the closed box from `low` to `high`, facing out.
+pub(super) fn axis_box(low: Vec3, high: Vec3) -> Vec<Triangle> {
+    let corner = |index: usize| {
+        Vec3::new(
+            if index & 1 == 0 { low.x } else { high.x },
+            if index & 2 == 0 { low.y } else { high.y },
+            if index & 4 == 0 { low.z } else { high.z },
+        )
+    };
+    const FACES: [[usize; 4]; 6] = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    FACES
+        .iter()
+        .flat_map(|face| quad(face.map(corner)))
+        .collect()
+}
+
+/// A sphere of `2 * rings` meridians and `rings` parallels. Its poles are
+/// degenerate quadrilaterals: half of their triangles are lines.
+pub(super) fn sphere(center: Vec3, radius: f32, rings: usize) -> Vec<Triangle> {
+    let segments = 2 * rings;
+    surface(segments, rings, |column, row| {
+        let turn = (column % segments) as f32 / segments as f32 * std::f32::consts::TAU;
+        let height = row as f32 / rings as f32 * std::f32::consts::PI;
+        let (sine, cosine) = turn.sin_cos();
+        let normal = Vec3::new(height.sin() * cosine, height.sin() * sine, height.cos());
+        center + radius * normal
     })
 }
 
-/// Turns by 45 degrees about all three axes.
-pub(super) fn turned() -> Mat3 {
-    use std::f32::consts::FRAC_PI_4;
-    Mat3::from_rotation_x(FRAC_PI_4)
-        * Mat3::from_rotation_y(FRAC_PI_4)
-        * Mat3::from_rotation_z(FRAC_PI_4)
-}
-
-/// All corners moved by `place`.
-pub(super) fn mapped(scene: Vec<Triangle>, place: impl Fn(Vec3) -> Vec3) -> Vec<Triangle> {
-    let moved = scene
-        .into_iter()
-        .map(|triangle| triangle.vertices().map(&place));
-    moved.map(Triangle::from).collect()
-}
-
-/// Triangles of about this size everywhere in a cube of side 2.
-pub(super) fn soup(random: &mut Pcg64Mcg, count: usize, size: f32) -> Vec<Triangle> {
-    repeat(count, |_| {
-        let center = cube_point(random);
-        around(random, center, size)
-    })
-}
-
-/// A size from `2^low` to `2^high`, all powers alike.
-pub(super) fn power_of_two(random: &mut Pcg64Mcg, low: i32, high: i32) -> f32 {
-    2.0_f32.powi(random.random_range(low..high))
+/// The same triangles with every vertex moved by `map`.
+pub(super) fn moved(triangles: &[Triangle], map: impl Fn(Vec3) -> Vec3) -> Vec<Triangle> {
+    let corners = triangles.iter().map(Triangle::vertices);
+    corners.map(|corners| corners.map(&map).into()).collect()
 }
