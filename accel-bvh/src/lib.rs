@@ -41,6 +41,11 @@
 //! median splits. The full sweep holds about 140 bytes a primitive while it
 //! builds, the binned one about 30.
 
+// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
 mod binned;
 mod builder;
 mod bvh;
