@@ -1,11 +1,9 @@
 //! A renderer's own ray and primitive types, with one dependency: accel-bvh.
 
-use accel_bvh::accel_core::layout::LeafOrdered;
-use accel_bvh::accel_core::primitive::{Intersection, Primitive};
 use accel_bvh::glam::Vec3;
 use accel_bvh::{
-    Aabb, AccelerationStructure, BuildError, BvhBuilder, Hit, PreparedRay, Ray, RaySegment, Sphere,
-    TraversalCounters, Triangle,
+    Aabb, AccelerationStructure, BuildError, BvhBuilder, Hit, Intersection, LeafOrdered,
+    PreparedRay, Primitive, Ray, RaySegment, Sphere, TraversalCounters, Triangle,
 };
 
 /// The renderer's ray.

@@ -46,11 +46,13 @@ impl<P: Primitive> Bvh<P> {
                 limit: MAX_OFFSET,
             });
         }
-        budget.check_bytes(words * 4 + size_of_val(primitives) * 2)?;
+        let references = tree.references();
+        let storage = references * (size_of::<P>() + 2 * size_of::<u32>());
+        budget.check_bytes(tree.bytes() + words * size_of::<u32>() + storage)?;
         let mut packing = Packing {
             primitives,
             words: Vec::with_capacity(words),
-            storage: P::Storage::with_capacity(primitives, primitives.len() - skipped),
+            storage: P::Storage::with_capacity(primitives, references),
         };
         let (pointer, depth) = packing.pack(tree.root());
         Ok(Self {

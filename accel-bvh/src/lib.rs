@@ -64,6 +64,8 @@ pub use layout::ChildBounds;
 pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
 
+pub use accel_core::layout::{Indexed, LeafOrdered};
+pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
     ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment,

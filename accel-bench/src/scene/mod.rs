@@ -113,7 +113,13 @@ impl Scene {
                 known: known.join(", "),
             });
         }
-        let loaded = obj::load(path, &ObjLimits::default())?;
+        let bar = crate::progress::bar(&format!("reading {name}"), 1);
+        let loaded = obj::load_with(path, &ObjLimits::default(), &mut |done, total| {
+            bar.set_length(total);
+            bar.set_position(done);
+        });
+        bar.finish_and_clear();
+        let loaded = loaded?;
         let mesh = loaded.mesh;
         Ok(Self {
             name: path.file_stem().map_or_else(

@@ -67,6 +67,17 @@ impl<I> BuildTree<I> {
         }
     }
 
+    /// Bytes that the tree holds, forks aside.
+    pub fn bytes(&self) -> usize {
+        let (inner, leaves) = self.count();
+        (inner + leaves) * size_of::<RunNode<I>>() + self.references() * size_of::<u32>()
+    }
+
+    /// How many references all leaves hold together.
+    pub fn references(&self) -> usize {
+        self.root.references()
+    }
+
     /// How many inner nodes and leaves there are.
     pub fn count(&self) -> (usize, usize) {
         self.root.count()
@@ -74,6 +85,13 @@ impl<I> BuildTree<I> {
 }
 
 impl<I> Subtree<I> {
+    fn references(&self) -> usize {
+        match self {
+            Self::Run(run) => run.ids.len(),
+            Self::Fork { children, .. } => children.iter().map(Self::references).sum(),
+        }
+    }
+
     fn count(&self) -> (usize, usize) {
         match self {
             Self::Run(run) => {

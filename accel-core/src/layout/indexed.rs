@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{LeafStorage, ReferenceList, StorageBytes, offer_intersection};
+use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
 use crate::primitive::Primitive;
 use crate::query::Query;
 use crate::ray::PreparedRay;
@@ -43,11 +43,8 @@ impl<P: Primitive> LeafStorage<P> for Indexed<P> {
         statistics: &mut S,
     ) -> ControlFlow<()> {
         for id in self.references.leaf(leaf) {
-            let primitive = &self.primitives[id as usize];
             statistics.test_primitives(1);
-            if let Some(intersection) = primitive.intersect(ray) {
-                offer_intersection(intersection, id, &primitive.bounds(), ray, query)?;
-            }
+            offer_primitive(&self.primitives[id as usize], id, ray, query)?;
         }
         ControlFlow::Continue(())
     }

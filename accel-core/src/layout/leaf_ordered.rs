@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{LeafStorage, ReferenceList, StorageBytes, offer_intersection};
+use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
 use crate::primitive::Primitive;
 use crate::query::Query;
 use crate::ray::PreparedRay;
@@ -48,9 +48,7 @@ impl<P: Primitive> LeafStorage<P> for LeafOrdered<P> {
         let copies = &self.copies[leaf as usize..];
         for (id, primitive) in self.references.leaf(leaf).zip(copies) {
             statistics.test_primitives(1);
-            if let Some(intersection) = primitive.intersect(ray) {
-                offer_intersection(intersection, id, &primitive.bounds(), ray, query)?;
-            }
+            offer_primitive(primitive, id, ray, query)?;
         }
         ControlFlow::Continue(())
     }

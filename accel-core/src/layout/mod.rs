@@ -15,7 +15,7 @@ use crate::statistics::TraversalStatistics;
 
 pub use indexed::Indexed;
 pub use leaf_ordered::LeafOrdered;
-pub use offer::offer_intersection;
+pub use offer::{offer_intersection, offer_primitive};
 pub use reference_list::{MAX_PRIMITIVES, ReferenceList};
 pub use triangle_blocks::TriangleBlocks;
 

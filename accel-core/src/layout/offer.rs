@@ -4,9 +4,24 @@
 use std::ops::ControlFlow;
 
 use crate::geometry::Aabb;
-use crate::primitive::Intersection;
+use crate::primitive::{Intersection, Primitive};
 use crate::query::{Hit, Query};
 use crate::ray::PreparedRay;
+
+/// Intersects `primitive` and offers the hit, if there is one: the body of every
+/// leaf's loop.
+#[inline]
+pub fn offer_primitive<P: Primitive, Q: Query>(
+    primitive: &P,
+    id: u32,
+    ray: &PreparedRay,
+    query: &mut Q,
+) -> ControlFlow<()> {
+    match primitive.intersect(ray) {
+        Some(intersection) => offer_intersection(intersection, id, &primitive.bounds(), ray, query),
+        None => ControlFlow::Continue(()),
+    }
+}
 
 /// Offers `intersection` of the primitive `id`, whose box is `bounds`, to
 /// `query` if it is a hit.

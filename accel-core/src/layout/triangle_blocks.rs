@@ -3,9 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use super::{LeafStorage, ReferenceList, StorageBytes, offer_intersection};
+use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
 use crate::primitive::watertight::LaneTest;
-use crate::primitive::{Primitive, Triangle};
+use crate::primitive::Triangle;
 use crate::query::Query;
 use crate::ray::PreparedRay;
 use crate::statistics::TraversalStatistics;
@@ -164,9 +164,7 @@ impl TriangleBlocks {
         while lanes != 0 {
             let id = self.references.id(first + lanes.trailing_zeros() as usize);
             let triangle = &self.primitives[id as usize];
-            if let Some(intersection) = triangle.intersect(ray) {
-                offer_intersection(intersection, id, &triangle.bounds(), ray, query)?;
-            }
+            offer_primitive(triangle, id, ray, query)?;
             lanes &= lanes - 1;
         }
         ControlFlow::Continue(())
