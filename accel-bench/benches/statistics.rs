@@ -11,7 +11,6 @@ use accel_bench::scene::embedded;
 use accel_bvh::{AccelerationStructure, Bvh, BvhBuilder, Hit, PreparedRay, RaySegment, Triangle};
 use accel_core::glam::Vec3;
 use accel_core::primitive::triangles_of_mesh;
-use accel_core::ray::{FAR_PAD, NEAR_PAD};
 use accel_core::simd::F32x4;
 use accel_core::statistics::TraversalCounters;
 use accel_core::{Primitive, structure::TraversalStack};
@@ -59,8 +58,18 @@ impl ByHand {
         let signs = reciprocal.cmplt(Vec3::ZERO);
         let [x, y, z] = [0, 1, 2].map(|axis| usize::from(signs.test(axis)) * 2);
         let pairs = |v: Vec3| F32x4::new(v.x, v.x, v.y, v.y);
-        let (origin_xy, reciprocal_xy) = (pairs(ray.origin()), pairs(reciprocal));
-        let (origin_z, reciprocal_z) = (F32x4::splat(ray.origin().z), F32x4::splat(reciprocal.z));
+        let origin_xy = pairs(ray.origin());
+        let (near_reciprocal, far_reciprocal) = (ray.near_reciprocal(), ray.far_reciprocal());
+        let (near_reciprocal_xy, far_reciprocal_xy) =
+            (pairs(near_reciprocal), pairs(far_reciprocal));
+        let origin_z = F32x4::splat(ray.origin().z);
+        let reciprocal_z = F32x4::new(
+            near_reciprocal.z,
+            near_reciprocal.z,
+            far_reciprocal.z,
+            far_reciprocal.z,
+        );
+        let t_min = F32x4::splat(ray.t_min());
         let mut stack = TraversalStack::new();
         // A node: its word, and bit 31 for a leaf. The root is an inner node.
         let mut next = Some(0_u32);
@@ -74,15 +83,13 @@ impl ByHand {
                 let plane = |index: usize| f32::from_bits(words[index]);
                 let two =
                     |a: usize, b: usize| F32x4::new(plane(a), plane(a + 1), plane(b), plane(b + 1));
-                let entry = (two(x, 4 + y) - origin_xy) * reciprocal_xy;
-                let exit = (two(2 - x, 6 - y) - origin_xy) * reciprocal_xy;
+                let entry = (two(x, 4 + y) - origin_xy) * near_reciprocal_xy;
+                let exit = (two(2 - x, 6 - y) - origin_xy) * far_reciprocal_xy;
                 let both = (two(8 + z, 10 - z) - origin_z) * reciprocal_z;
-                let near = F32x4::splat(f32::NEG_INFINITY).max_or_keep(entry);
+                let near = t_min.max_or_keep(entry);
                 let near = near.max_or_keep(near.high()).max_or_keep(both);
-                let far = F32x4::splat(f32::INFINITY).min_or_keep(exit);
+                let far = F32x4::splat(t_max).min_or_keep(exit);
                 let far = far.min_or_keep(far.high()).min_or_keep(both.high());
-                let near = F32x4::splat(ray.t_min()).max_or_keep(near * F32x4::splat(NEAR_PAD));
-                let far = F32x4::splat(t_max).min_or_keep(far * F32x4::splat(FAR_PAD));
                 let met = near.le_mask(far) & 0b11;
                 let near = near.first_two();
                 let pointer = words[12];

@@ -13,7 +13,7 @@ use accel_core::geometry::Axis;
 use accel_core::glam::Vec3;
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::{FAR_PAD, NEAR_PAD, max_or_keep};
+use accel_core::ray::max_or_keep;
 use accel_core::simd::F32x4;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
 use accel_core::structure::TraversalStack;
@@ -81,8 +81,10 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
 /// of its own for entry and exit.
 struct SiblingTest {
     origin_xy: F32x4,
-    reciprocal_xy: F32x4,
+    near_reciprocal_xy: F32x4,
+    far_reciprocal_xy: F32x4,
     origin_z: F32x4,
+    /// Near twice, then far twice.
     reciprocal_z: F32x4,
     t_min: F32x4,
     negative: [bool; 3],
@@ -92,11 +94,13 @@ impl SiblingTest {
     #[inline]
     fn new(ray: &PreparedRay) -> Self {
         let pairs = |v: Vec3| F32x4::new(v.x, v.x, v.y, v.y);
+        let (near, far) = (ray.near_reciprocal(), ray.far_reciprocal());
         Self {
             origin_xy: pairs(ray.origin()),
-            reciprocal_xy: pairs(ray.reciprocal()),
+            near_reciprocal_xy: pairs(near),
+            far_reciprocal_xy: pairs(far),
             origin_z: F32x4::splat(ray.origin().z),
-            reciprocal_z: F32x4::splat(ray.reciprocal().z),
+            reciprocal_z: F32x4::new(near.z, near.z, far.z, far.z),
             t_min: F32x4::splat(ray.t_min()),
             negative: Axis::ALL.map(|axis| ray.is_negative(axis)),
         }
@@ -114,16 +118,14 @@ impl SiblingTest {
         let entry_xy = planes(node.planes(0, x), node.planes(1, y));
         let exit_xy = planes(node.planes(0, !x), node.planes(1, !y));
         let both_z = planes(node.planes(2, z), node.planes(2, !z));
-        let entry_xy = (entry_xy - self.origin_xy) * self.reciprocal_xy;
-        let exit_xy = (exit_xy - self.origin_xy) * self.reciprocal_xy;
+        let entry_xy = (entry_xy - self.origin_xy) * self.near_reciprocal_xy;
+        let exit_xy = (exit_xy - self.origin_xy) * self.far_reciprocal_xy;
         let both_z = (both_z - self.origin_z) * self.reciprocal_z;
 
-        let near = F32x4::splat(f32::NEG_INFINITY).max_or_keep(entry_xy);
+        let near = self.t_min.max_or_keep(entry_xy);
         let near = near.max_or_keep(near.high()).max_or_keep(both_z);
-        let far = F32x4::splat(f32::INFINITY).min_or_keep(exit_xy);
+        let far = F32x4::splat(t_max).min_or_keep(exit_xy);
         let far = far.min_or_keep(far.high()).min_or_keep(both_z.high());
-        let near = self.t_min.max_or_keep(near * F32x4::splat(NEAR_PAD));
-        let far = F32x4::splat(t_max).min_or_keep(far * F32x4::splat(FAR_PAD));
         (near.first_two(), near.le_mask(far) & 0b11)
     }
 }

@@ -20,7 +20,7 @@ fn moved(triangles: &[Triangle], by: f32) -> Vec<Triangle> {
 #[test]
 fn a_refitted_tree_agrees_with_brute_force_and_is_valid() {
     for (seed, name) in (0..).zip([
-        "soup",
+        "soup-uniform",
         "hairball",
         "nan-mixed",
         "one-triangle",

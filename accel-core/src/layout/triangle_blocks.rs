@@ -4,8 +4,8 @@
 use std::ops::ControlFlow;
 
 use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
-use crate::primitive::watertight::LaneTest;
 use crate::primitive::Triangle;
+use crate::primitive::watertight::LaneTest;
 use crate::query::Query;
 use crate::ray::PreparedRay;
 use crate::statistics::TraversalStatistics;

@@ -6,7 +6,7 @@ mod segment;
 use glam::Vec3;
 
 pub(crate) use prepared::Shear;
-pub use prepared::{FAR_PAD, Interval, NEAR_PAD, PreparedRay, max_or_keep, min_or_keep};
+pub use prepared::{Interval, PreparedRay, max_or_keep, min_or_keep};
 pub use segment::RaySegment;
 
 /// What a traversal needs to know of a ray: implement it on a renderer's own
