@@ -155,10 +155,24 @@ impl Aabb {
     /// the primitive's extent, so a hit may lie that far outside the bounds.
     /// Builders reference a primitive by this box, and the leaf loop accepts no
     /// hit outside it: together they make every enclosing box see every hit.
+    ///
+    /// Computed in single precision, because it is computed for every hit: the
+    /// rounding outward is by a step of at least one unit in the last place.
+    #[inline]
     #[must_use]
     pub fn gate(&self) -> Self {
-        const RELATIVE_PAD: f64 = 1.0 / (1 << 21) as f64;
-        self.padded(self.largest_extent() * RELATIVE_PAD)
+        const RELATIVE_PAD: f32 = 1.0 / (1 << 21) as f32;
+        const RELATIVE_STEP: f32 = 1.0 / (1 << 23) as f32;
+        // Where a relative step would vanish: some subnormal units.
+        const SMALLEST_STEP: f32 = f32::from_bits(4);
+        let pad = (self.max - self.min).max_element() * RELATIVE_PAD;
+        let (low, high) = (self.min - pad, self.max + pad);
+        let step = |plane: Vec3| plane.abs() * RELATIVE_STEP + SMALLEST_STEP;
+        // Steps from and to infinity are not numbers; the limits replace them.
+        Self {
+            min: larger(Vec3::splat(-f32::MAX), low - step(low)),
+            max: smaller(Vec3::splat(f32::MAX), high + step(high)),
+        }
     }
 
     /// The corner on the low side where `high` is false and on the high side
@@ -219,12 +233,22 @@ mod tests {
     }
 
     #[test]
-    fn a_gate_is_strictly_larger_unless_the_box_is_a_point() {
-        let bounds = Aabb::new([1.0, 1.0, 5.0], [2.0, 1.0, 5.5]);
-        let gate = bounds.gate();
-        assert!(gate.min.cmplt(bounds.min).all() && gate.max.cmpgt(bounds.max).all());
-        let point = Aabb::new([1.0; 3], [1.0; 3]);
-        assert_eq!(point.gate(), point);
+    fn a_gate_is_strictly_larger_by_no_less_than_its_pad() {
+        for scale in [1e-44, 1e-38, 1e-20, 1.0, 3e7, 1e30] {
+            for extent in [0.0, 1e-6, 1.0] {
+                let low = Vec3::new(1.0, -1.0, 0.0) * scale;
+                let bounds = Aabb::new(low, low + Vec3::new(extent, 0.0, 0.5 * extent) * scale);
+                let gate = bounds.gate();
+                let pad = bounds.largest_extent() / f64::from(1 << 21);
+                let below = bounds.min.as_dvec3() - gate.min.as_dvec3();
+                let above = gate.max.as_dvec3() - bounds.max.as_dvec3();
+                let least = below.min(above).min_element();
+                assert!(
+                    least > 0.0 && least >= pad * (1.0 - 1e-6),
+                    "{bounds:?} {gate:?}"
+                );
+            }
+        }
     }
 
     #[test]

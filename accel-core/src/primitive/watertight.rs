@@ -87,10 +87,13 @@ fn finish(vertices: [Sheared; 3], along: f32) -> Option<Intersection> {
         return None;
     }
     let [a, b, c] = vertices.map(|vertex| f64::from(vertex.z));
+    // One division; what it costs in accuracy is far below a rounding to f32.
+    let along = f64::from(along);
+    let reciprocal = 1.0 / (determinant * along);
     Some(Intersection {
-        t: ((u * a + v * b + w * c) / (determinant * f64::from(along))) as f32,
-        u: (v / determinant) as f32,
-        v: (w / determinant) as f32,
+        t: ((u * a + v * b + w * c) * reciprocal) as f32,
+        u: (v * along * reciprocal) as f32,
+        v: (w * along * reciprocal) as f32,
     })
 }
 
