@@ -21,39 +21,38 @@ const PART: Effort = Effort {
     full_size_rays: 0,
 };
 
-fn check(effort: &Effort, object_split: ObjectSplit, leaf_rule: LeafRule) -> Checked {
-    let builder = BvhBuilder {
-        object_split,
-        leaf_rule,
-        invalid_primitives: InvalidPrimitives::Skip,
-        ..BvhBuilder::default()
-    };
+/// Checks all settings on every family, and that each tree is valid.
+fn check(effort: &Effort, settings: &[(ObjectSplit, LeafRule)]) -> Checked {
     let build = |triangles: &[Triangle]| {
-        let bvh = builder.build(triangles)?;
-        bvh.validate()
-            .unwrap_or_else(|error| panic!("{builder:?}: {error}"));
-        Ok(bvh)
+        let builds = settings.iter().map(|&(object_split, leaf_rule)| {
+            let builder = BvhBuilder {
+                object_split,
+                leaf_rule,
+                invalid_primitives: InvalidPrimitives::Skip,
+                ..BvhBuilder::default()
+            };
+            let bvh = builder.build(triangles)?;
+            bvh.validate()
+                .unwrap_or_else(|error| panic!("{builder:?}: {error}"));
+            Ok(bvh)
+        });
+        builds.collect()
     };
     check_families(effort, build).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn check_in_full(object_split: ObjectSplit, leaf_rule: LeafRule) {
-    let checked = check(&Effort::default(), object_split, leaf_rule);
+#[test]
+fn both_searches_agree_with_brute_force_on_every_family() {
+    let settings = [
+        (ObjectSplit::FullSweep, LeafRule::SahUpTo(8)),
+        (ObjectSplit::Binned { bins: 32 }, LeafRule::SahUpTo(8)),
+    ];
+    let checked = check(&Effort::default(), &settings);
     assert!(
         checked.families >= 40 && checked.scenes >= 40 * 25,
         "{checked:?}"
     );
     assert!(checked.hits > 100_000, "{checked:?}");
-}
-
-#[test]
-fn the_full_sweep_agrees_on_every_family() {
-    check_in_full(ObjectSplit::FullSweep, LeafRule::SahUpTo(8));
-}
-
-#[test]
-fn the_binned_search_agrees_on_every_family() {
-    check_in_full(ObjectSplit::Binned { bins: 32 }, LeafRule::SahUpTo(8));
 }
 
 #[test]
@@ -64,10 +63,8 @@ fn other_leaf_rules_and_bins_agree_on_every_family() {
         (ObjectSplit::Binned { bins: 64 }, LeafRule::StopAt(8)),
         (ObjectSplit::Binned { bins: 2 }, LeafRule::StopAt(1)),
     ];
-    for (object_split, leaf_rule) in settings {
-        let checked = check(&PART, object_split, leaf_rule);
-        assert!(checked.hits > 10_000, "{checked:?}");
-    }
+    let checked = check(&PART, &settings);
+    assert!(checked.hits > 10_000, "{checked:?}");
 }
 
 #[test]

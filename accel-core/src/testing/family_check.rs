@@ -3,7 +3,9 @@
 use std::fmt;
 
 use super::agreement::{Disagreement, Expected};
-use super::{families, rays};
+use super::families::{self, Family};
+use super::rays;
+use crate::build::join;
 use crate::error::BuildError;
 use crate::{AccelerationStructure, Triangle};
 
@@ -89,47 +91,92 @@ impl fmt::Display for FamilyFailure {
     }
 }
 
-/// Checks the structure that `build` makes against brute force on every scene
-/// family: closest hit, any hit and all hits of every kind of ray, equal in
-/// every bit. `build` must leave invalid primitives out.
+/// Checks the structures that `build` makes of a scene against brute force on
+/// every scene family: closest hit, any hit and all hits of every kind of ray,
+/// equal in every bit. `build` must leave invalid primitives out. Brute force's
+/// answers are computed once for all structures.
 ///
 /// # Errors
-/// The first scene that fails, reproducible from its family, seed and size.
-pub fn check_families<A: AccelerationStructure>(
+/// A scene that fails, reproducible from its family, seed and size.
+pub fn check_families<A, B>(effort: &Effort, build: B) -> Result<Checked, FamilyFailure>
+where
+    A: AccelerationStructure,
+    B: Fn(&[Triangle]) -> Result<Vec<A>, BuildError> + Sync,
+{
+    check_part(families::all(), effort, &build)
+}
+
+/// Checks some families, on all cores.
+fn check_part<A, B>(
+    families: &[Family],
     effort: &Effort,
-    build: impl Fn(&[Triangle]) -> Result<A, BuildError>,
-) -> Result<Checked, FamilyFailure> {
-    let mut checked = Checked::default();
-    for family in families::all() {
-        checked.families += 1;
-        for seed in 0..=effort.seeds {
-            // The last scene is the one at full size.
-            let (triangles, rays) = if seed < effort.seeds {
-                let triangles = effort.triangles >> (seed % 3);
-                (triangles.min(family.full_size), effort.rays)
-            } else {
-                (family.full_size, effort.full_size_rays)
-            };
-            let scene = family.scene(seed, triangles);
-            let fail = |problem| FamilyFailure {
-                family: family.name,
-                seed,
-                triangles,
-                problem,
-            };
-            let rays = rays::mixed(&scene, seed, rays);
-            let expected =
-                Expected::new(&scene, rays).map_err(|error| fail(Problem::Build(error)))?;
-            let structure = build(&scene).map_err(|error| fail(Problem::Build(error)))?;
+    build: &B,
+) -> Result<Checked, FamilyFailure>
+where
+    A: AccelerationStructure,
+    B: Fn(&[Triangle]) -> Result<Vec<A>, BuildError> + Sync,
+{
+    match families {
+        [] => Ok(Checked::default()),
+        [family] => check_family(family, effort, build),
+        _ => {
+            let (left, right) = families.split_at(families.len() / 2);
+            let (left, right) = join(
+                || check_part(left, effort, build),
+                || check_part(right, effort, build),
+            );
+            Ok(left?.plus(right?))
+        }
+    }
+}
+
+fn check_family<A, B>(family: &Family, effort: &Effort, build: &B) -> Result<Checked, FamilyFailure>
+where
+    A: AccelerationStructure,
+    B: Fn(&[Triangle]) -> Result<Vec<A>, BuildError>,
+{
+    let mut checked = Checked {
+        families: 1,
+        ..Checked::default()
+    };
+    for seed in 0..=effort.seeds {
+        // The last scene is the one at full size.
+        let (triangles, rays) = if seed < effort.seeds {
+            let triangles = effort.triangles >> (seed % 3);
+            (triangles.min(family.full_size), effort.rays)
+        } else {
+            (family.full_size, effort.full_size_rays)
+        };
+        let fail = |problem| FamilyFailure {
+            family: family.name,
+            seed,
+            triangles,
+            problem,
+        };
+        let scene = family.scene(seed, triangles);
+        let rays = rays::mixed(&scene, seed, rays);
+        let expected = Expected::new(&scene, rays).map_err(|error| fail(Problem::Build(error)))?;
+        for structure in build(&scene).map_err(|error| fail(Problem::Build(error)))? {
             let disagreements = expected.disagreements(&structure);
             if let Some(first) = disagreements.first() {
                 let first = Box::new(first.clone());
                 return Err(fail(Problem::Disagreement(disagreements.len(), first)));
             }
-            checked.scenes += 1;
-            checked.rays += expected.rays.len();
-            checked.hits += expected.hits();
         }
+        checked.scenes += 1;
+        checked.rays += expected.rays.len();
+        checked.hits += expected.hits();
     }
     Ok(checked)
+}
+
+impl Checked {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            families: self.families + other.families,
+            scenes: self.scenes + other.scenes,
+            rays: self.rays + other.rays,
+            hits: self.hits + other.hits,
+        }
+    }
 }
