@@ -1,10 +1,10 @@
 //! Pinhole cameras.
 
-use std::fmt;
-use std::str::FromStr;
+mod framing;
+mod parse;
 
 use accel_core::RaySegment;
-use accel_core::glam::Vec3;
+use accel_core::glam::{DVec3, Vec3};
 
 use super::Mesh;
 
@@ -15,19 +15,28 @@ pub struct Camera {
     pub eye: Vec3,
     /// The point in the middle of the picture.
     pub look_at: Vec3,
-    /// What is up in the picture; need not be orthogonal to the view.
+    /// What is up in the picture; need not be orthogonal to the view. Where it is
+    /// parallel to it, another direction takes its place.
     pub up: Vec3,
     /// The angle from the lower to the upper border, above 0 and below 180.
     pub vertical_fov_degrees: f32,
 }
 
-/// What is wrong with a camera on the command line.
+/// What is wrong with a camera.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CameraError {
     /// Too few or too many parts.
-    #[error("`{0}` is not \"eye;look-at;vertical-fov\" or \"eye;look-at;vertical-fov;up\"")]
-    Parts(String),
+    #[error(
+        "`{text}` has {found} parts between semicolons, not the 3 or 4 of \
+         \"eye;look-at;vertical-fov[;up]\", such as \"0,1,5;0,0,0;45\""
+    )]
+    Parts {
+        /// What was given.
+        text: String,
+        /// How many parts it has.
+        found: usize,
+    },
     /// A vector is not three finite numbers.
     #[error("{part} is `{value}`, not three finite numbers x,y,z")]
     Vector {
@@ -40,162 +49,136 @@ pub enum CameraError {
     #[error("the vertical field of view is `{0}`, not a number of degrees above 0 and below 180")]
     FieldOfView(String),
     /// There is no direction to look in.
-    #[error("eye and look-at are both {0}")]
+    #[error("eye and look-at are both {0}, so there is no direction to look in")]
     NoDirection(Vec3),
-}
-
-impl FromStr for Camera {
-    type Err = CameraError;
-
-    fn from_str(text: &str) -> Result<Self, CameraError> {
-        let parts: Vec<&str> = text.split(';').map(str::trim).collect();
-        let (eye, look_at, fov, up) = match parts[..] {
-            [eye, look_at, fov] => (eye, look_at, fov, "0,1,0"),
-            [eye, look_at, fov, up] => (eye, look_at, fov, up),
-            _ => return Err(CameraError::Parts(text.to_owned())),
-        };
-        let camera = Self {
-            eye: vector("eye", eye)?,
-            look_at: vector("look-at", look_at)?,
-            up: vector("up", up)?,
-            vertical_fov_degrees: field_of_view(fov)?,
-        };
-        if camera.eye == camera.look_at {
-            return Err(CameraError::NoDirection(camera.eye));
-        }
-        Ok(camera)
-    }
-}
-
-fn vector(part: &'static str, text: &str) -> Result<Vec3, CameraError> {
-    let inner = text.trim_start_matches('(').trim_end_matches(')');
-    let numbers: Result<Vec<f32>, _> = inner
-        .split(',')
-        .map(|number| number.trim().parse())
-        .collect();
-    let error = CameraError::Vector {
-        part,
-        value: text.to_owned(),
-    };
-    match numbers.as_deref() {
-        Ok(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
-        _ => Err(error),
-    }
-}
-
-fn field_of_view(text: &str) -> Result<f32, CameraError> {
-    match text.parse() {
-        Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
-        _ => Err(CameraError::FieldOfView(text.to_owned())),
-    }
-}
-
-impl fmt::Display for Camera {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let show = |v: Vec3| format!("{},{},{}", v.x, v.y, v.z);
-        let (eye, look_at, up) = (show(self.eye), show(self.look_at), show(self.up));
-        write!(f, "{eye};{look_at};{};{up}", self.vertical_fov_degrees)
-    }
+    /// There is no up.
+    #[error("up is 0,0,0, which is no direction")]
+    NoUp,
 }
 
 impl Camera {
+    /// A camera with y up.
+    pub fn upright(
+        eye: impl Into<Vec3>,
+        look_at: impl Into<Vec3>,
+        vertical_fov_degrees: f32,
+    ) -> Self {
+        Self {
+            eye: eye.into(),
+            look_at: look_at.into(),
+            up: Vec3::Y,
+            vertical_fov_degrees,
+        }
+    }
+
+    /// The camera itself if it has a picture.
+    ///
+    /// # Errors
+    /// A vector that is not finite, a field of view out of range, an eye at the
+    /// point looked at, or an up without direction.
+    pub fn validated(self) -> Result<Self, CameraError> {
+        let vectors = [
+            ("eye", self.eye),
+            ("look-at", self.look_at),
+            ("up", self.up),
+        ];
+        if let Some((part, v)) = vectors.into_iter().find(|(_, v)| !v.is_finite()) {
+            let value = format!("{},{},{}", v.x, v.y, v.z);
+            return Err(CameraError::Vector { part, value });
+        }
+        let degrees = self.vertical_fov_degrees;
+        if !(degrees > 0.0 && degrees < 180.0) {
+            return Err(CameraError::FieldOfView(degrees.to_string()));
+        }
+        if self.eye == self.look_at {
+            return Err(CameraError::NoDirection(self.eye));
+        }
+        if self.up == Vec3::ZERO {
+            return Err(CameraError::NoUp);
+        }
+        Ok(self)
+    }
+
     /// A ray of unit direction through the middle of every pixel, row by row
     /// from the top.
     pub fn rays(&self, width: u32, height: u32) -> Vec<RaySegment> {
         let frame = Frame::new(self, width, height);
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        pixels.map(|(x, y)| frame.ray(x, y)).collect()
+        pixels.map(|(x, y)| frame.ray(x, y, [0.5; 2])).collect()
     }
 
-    /// A camera that sees `mesh`, chosen from where its triangles are: a
-    /// three-quarter view from outside of the box that holds all but the
-    /// outermost hundredth of them on each side.
+    /// The ray of unit direction through pixel `x` from the left and `y` from the
+    /// top of a picture of `width` by `height`. `jitter` says where in the pixel:
+    /// 0,0 is its upper left corner and 1,1 its lower right one.
+    pub fn ray(&self, x: u32, y: u32, width: u32, height: u32, jitter: [f32; 2]) -> RaySegment {
+        Frame::new(self, width, height).ray(x, y, jitter)
+    }
+
+    /// A camera that sees `mesh`: from outside, unless few but large triangles
+    /// hide most of the others from there, as walls do; then from inside.
+    ///
+    /// Chosen from where most triangles are. Those without finite corners are
+    /// left out; a mesh without any others gets a view of the origin.
     pub fn seeing(mesh: &Mesh) -> Self {
-        let (low, high) = robust_bounds(mesh);
-        let center = low * 0.5 + high * 0.5;
-        let radius = ((high - low).length() * 0.5).max(f32::MIN_POSITIVE);
-        let vertical_fov_degrees: f32 = 45.0;
-        // Far enough for a ball of that radius to fit, with some room.
-        let distance = 1.1 * radius / (vertical_fov_degrees.to_radians() / 2.0).sin();
-        let direction = Vec3::new(0.55, 0.42, 1.0).normalize();
-        Self {
-            eye: center + direction * distance,
-            look_at: center,
-            up: Vec3::Y,
-            vertical_fov_degrees,
-        }
+        framing::camera_seeing(mesh)
     }
 }
 
-/// The ray of each pixel.
+/// The picture of a camera. In f64, so that neither the smallest scenes nor
+/// f32::MAX between eye and scene are a special case.
 struct Frame {
     eye: Vec3,
-    forward: Vec3,
-    /// Half the picture's width and height at distance 1.
-    right: Vec3,
-    up: Vec3,
-    width: u32,
-    height: u32,
+    forward: DVec3,
+    /// Half the picture's width, at distance 1.
+    right: DVec3,
+    /// Half the picture's height, at distance 1.
+    up: DVec3,
+    size: [f64; 2],
 }
 
 impl Frame {
     fn new(camera: &Camera, width: u32, height: u32) -> Self {
-        let forward = (camera.look_at - camera.eye).normalize_or(Vec3::NEG_Z);
-        let right = forward.cross(camera.up);
-        // Looking straight up or down, any other direction may be right.
-        let right = right.normalize_or(forward.any_orthonormal_vector());
+        let eye = camera.eye.as_dvec3();
+        let forward = (camera.look_at.as_dvec3() - eye).normalize_or(DVec3::NEG_Z);
+        let right = forward.cross(camera.up.as_dvec3().normalize_or_zero());
+        let right = if right.length() > 1e-6 {
+            right.normalize()
+        } else {
+            // Looking straight up or down: the picture's up is what was ahead.
+            let ahead = if forward.z.abs() < 0.9 {
+                DVec3::NEG_Z
+            } else {
+                DVec3::Y
+            };
+            forward.cross(ahead).normalize()
+        };
         let up = right.cross(forward);
-        let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan();
-        let half_width = half_height * width as f32 / height as f32;
+        let size = [width, height].map(f64::from);
+        let half_height = (f64::from(camera.vertical_fov_degrees).to_radians() / 2.0).tan();
         Self {
             eye: camera.eye,
             forward,
-            right: right * half_width,
+            right: right * (half_height * size[0] / size[1]),
             up: up * half_height,
-            width,
-            height,
+            size,
         }
     }
 
-    fn ray(&self, x: u32, y: u32) -> RaySegment {
-        let across = (x as f32 + 0.5) / self.width as f32 * 2.0 - 1.0;
-        let down = (y as f32 + 0.5) / self.height as f32 * 2.0 - 1.0;
+    fn ray(&self, x: u32, y: u32, jitter: [f32; 2]) -> RaySegment {
+        let across = (f64::from(x) + f64::from(jitter[0])) / self.size[0] * 2.0 - 1.0;
+        let down = (f64::from(y) + f64::from(jitter[1])) / self.size[1] * 2.0 - 1.0;
         let direction = self.forward + self.right * across - self.up * down;
-        RaySegment::new(self.eye, direction.normalize())
+        RaySegment::new(self.eye, direction.normalize().as_vec3())
     }
-}
 
-/// The box of the middle 98 % of triangle centres on each axis; triangles that
-/// are not finite are left out.
-fn robust_bounds(mesh: &Mesh) -> (Vec3, Vec3) {
-    let mut low = Vec3::splat(-1.0);
-    let mut high = Vec3::splat(1.0);
-    let centers = mesh.triangles.iter().map(|triangle| {
-        triangle
-            .iter()
-            .map(|&index| mesh.positions[index as usize] / 3.0)
-            .sum::<Vec3>()
-    });
-    let centers: Vec<Vec3> = centers.filter(|center| center.is_finite()).collect();
-    if centers.is_empty() {
-        return (low, high);
+    /// Where a point is in the picture: -1 to 1 from left to right and from
+    /// bottom to top; `None` behind the eye.
+    fn project(&self, point: Vec3) -> Option<[f64; 2]> {
+        let from_eye = point.as_dvec3() - self.eye.as_dvec3();
+        let depth = from_eye.dot(self.forward);
+        let place = |half: DVec3| from_eye.dot(half) / (half.length_squared() * depth);
+        (depth > 0.0).then(|| [place(self.right), place(self.up)])
     }
-    for axis in 0..3 {
-        let mut along: Vec<f32> = centers.iter().map(|center| center[axis]).collect();
-        along.sort_unstable_by(f32::total_cmp);
-        let outermost = along.len() / 100;
-        (low[axis], high[axis]) = (along[outermost], along[along.len() - 1 - outermost]);
-    }
-    // A single triangle has one centre, but an extent.
-    if low == high {
-        let size = mesh.triangles[0].map(|index| (mesh.positions[index as usize] - low).length());
-        let reach = size
-            .into_iter()
-            .filter(|size| size.is_finite())
-            .fold(0.0, f32::max);
-        (low, high) = (low - Vec3::splat(reach), high + Vec3::splat(reach));
-    }
-    (low, high)
 }
 
 #[cfg(test)]
@@ -203,79 +186,63 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cameras_are_read_from_the_command_line_and_printed_for_it() {
-        let camera: Camera = "(-13, 5, -1); (0, 5, 0.5); 65".parse().unwrap();
-        assert_eq!(
-            (camera.eye, camera.up),
-            (Vec3::new(-13.0, 5.0, -1.0), Vec3::Y)
-        );
-        assert_eq!(camera.to_string().parse(), Ok(camera));
-        let upright: Camera = "0,0,0;0,0,1;40;1,0,0".parse().unwrap();
-        assert_eq!(upright.up, Vec3::X);
-    }
-
-    #[test]
-    fn what_is_wrong_with_a_camera_is_named() {
-        for (text, word) in [
-            ("0,0,0;1,1,1", "vertical-fov"),
-            ("0,0;1,1,1;40", "eye"),
-            ("0,0,0;1,1,nan;40", "look-at"),
-            ("0,0,0;1,1,1;180", "field of view"),
-            ("0,0,0;1,1,1;forty", "field of view"),
-            ("0,0,0;1,1,1;40;up", "up"),
-            ("1,1,1;1,1,1;40", "both"),
-        ] {
-            let message = text.parse::<Camera>().unwrap_err().to_string();
-            assert!(message.contains(word), "{text}: {message}");
-        }
-    }
-
-    #[test]
     fn rays_run_from_the_upper_left_to_the_lower_right() {
-        let camera: Camera = "0,0,0;0,0,-1;90".parse().unwrap();
+        let camera = Camera::upright([0.0; 3], [0.0, 0.0, -1.0], 90.0);
         let rays = camera.rays(3, 3);
         assert_eq!(rays.len(), 9);
         assert!(rays[0].direction.x < 0.0 && rays[0].direction.y > 0.0);
         assert!(rays[8].direction.x > 0.0 && rays[8].direction.y < 0.0);
         assert!(rays[4].direction.distance(Vec3::NEG_Z) < 1e-6);
-    }
-
-    #[test]
-    fn a_view_straight_down_still_has_rays() {
-        let camera: Camera = "0,5,0;0,0,0;40".parse().unwrap();
         assert!(
-            camera
-                .rays(4, 3)
-                .iter()
-                .all(|ray| ray.direction.is_finite())
+            rays.iter()
+                .all(|ray| (ray.direction.length() - 1.0).abs() < 1e-6)
         );
     }
 
     #[test]
-    fn the_chosen_camera_frames_the_scene_despite_outliers_and_nan() {
-        let mut mesh = super::super::embedded::find("figure")
-            .unwrap()
-            .mesh_of(3000);
-        let spoil = mesh.positions.len() as u32;
-        mesh.positions
-            .extend([Vec3::NAN, Vec3::splat(1e9), Vec3::splat(2e9)]);
-        mesh.triangles.push([spoil, spoil + 1, spoil + 2]);
-        mesh.triangles.push([spoil + 1, spoil + 1, spoil + 2]);
-        let camera = Camera::seeing(&mesh);
-        let forward = (camera.look_at - camera.eye).normalize();
-        let half = (camera.vertical_fov_degrees.to_radians() / 2.0).cos();
-        let is_seen = |p: &&Vec3| (**p - camera.eye).normalize().dot(forward) > half;
-        let seen = mesh.positions.iter().filter(is_seen).count();
-        assert!(
-            seen * 100 > mesh.positions.len() * 95,
-            "{seen} of {}",
-            mesh.positions.len()
+    fn the_field_of_view_ends_at_the_borders_of_the_outer_pixels() {
+        let camera = Camera::upright([0.0; 3], [0.0, 0.0, -1.0], 90.0);
+        let corner = camera.ray(0, 0, 8, 4, [0.0, 0.0]).direction;
+        let expected = Vec3::new(-2.0, 1.0, -1.0).normalize();
+        assert!(corner.distance(expected) < 1e-6, "{corner}");
+        assert_eq!(
+            camera.ray(5, 2, 8, 4, [0.5; 2]),
+            camera.rays(8, 4)[2 * 8 + 5]
         );
-        let single = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            triangles: vec![[0, 1, 2]],
-        };
-        assert!(Camera::seeing(&single).eye.is_finite());
-        assert!(Camera::seeing(&Mesh::default()).eye.is_finite());
+    }
+
+    #[test]
+    fn points_project_to_where_their_rays_are() {
+        let camera: Camera = "1,2,3;-4,0,1;50;0.1,1,0.3".parse().unwrap();
+        let frame = Frame::new(&camera, 16, 9);
+        for (x, y) in [(0, 0), (15, 8), (3, 7)] {
+            let ray = camera.ray(x, y, 16, 9, [0.25, 0.75]);
+            let [across, above] = frame.project(ray.origin + ray.direction * 7.0).unwrap();
+            assert!(((across + 1.0) * 8.0 - f64::from(x) - 0.25).abs() < 1e-4);
+            assert!(((1.0 - above) * 4.5 - f64::from(y) - 0.75).abs() < 1e-4);
+        }
+        assert_eq!(frame.project(Vec3::new(6.0, 4.0, 5.0)), None);
+    }
+
+    #[test]
+    fn views_along_up_and_across_huge_or_tiny_distances_have_unit_rays() {
+        for (eye, look_at) in [
+            ([0.0, 5.0, 0.0], [0.0; 3]),
+            ([0.0, -5.0, 0.0], [0.0; 3]),
+            ([-3e38; 3], [3e38; 3]),
+            ([0.0; 3], [1e-42, 0.0, 0.0]),
+        ] {
+            let camera = Camera::upright(eye, look_at, 40.0);
+            for ray in camera.rays(4, 3) {
+                let length = ray.direction.length();
+                assert!((length - 1.0).abs() < 1e-6, "{camera:?}: {length}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_without_pixels_has_no_rays() {
+        let camera = Camera::upright([0.0; 3], [0.0, 0.0, -1.0], 90.0);
+        assert!(camera.rays(0, 5).is_empty() && camera.rays(5, 0).is_empty());
     }
 }

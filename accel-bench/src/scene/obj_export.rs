@@ -4,8 +4,10 @@ use std::io::{self, Write};
 
 use super::Mesh;
 
-/// Writes `mesh` as OBJ. Numbers are written so that reading them gives the same
-/// bits.
+/// Writes `mesh` as OBJ: a `v` line per position, an `f` line per triangle. Finite
+/// numbers are written with the fewest digits that read back to the same bits; a
+/// loader refuses those that are not finite. Many small writes: `out` should be
+/// buffered.
 ///
 /// # Errors
 /// What `out` answers.

@@ -1,83 +1,90 @@
-//! A dense figure in a coarse stadium: what Stich 2009 calls the Bubs scene.
-//! The figure holds 95 % of the triangles and a thousandth of the space.
-
-use std::f32::consts::{PI, TAU};
+//! A dense figure in a coarse stadium: the case that Stich 2009, section 5,
+//! shows with the scene Bubs. The figure holds 95 % of the triangles in a
+//! ten-thousandth of the volume, and the few large triangles around it spoil the
+//! boxes near the root.
 
 use accel_core::glam::Vec3;
 
-use super::builder::MeshBuilder;
-use crate::scene::Mesh;
+use super::figure;
+use super::shapes::{MeshBuilder, full_turn};
+use crate::scene::{Mesh, camera::Camera};
 
-pub(super) fn mesh(triangles: usize) -> Mesh {
+/// The figure at the centre of the pitch. The seed shapes its skin.
+pub fn stadium(triangles: usize, seed: u64) -> Mesh {
     let mut builder = MeshBuilder::default();
-    figure(&mut builder, triangles * 95 / 100);
-    let rest = triangles.saturating_sub(builder.triangles());
-    stands(&mut builder, rest);
+    figure::build(&mut builder, triangles * 95 / 100, seed);
+    let rest = triangles.saturating_sub(builder.triangle_count());
+    surroundings(&mut builder, rest);
     builder.finish()
 }
 
-pub(super) fn figure_mesh(triangles: usize) -> Mesh {
-    let mut builder = MeshBuilder::default();
-    figure(&mut builder, triangles);
-    builder.finish()
+/// The figure before the stands, and the whole stadium from its upper tier.
+pub fn cameras() -> Vec<Camera> {
+    vec![
+        Camera::upright([1.5, 1.0, 4.6], [0.0, 1.25, 0.0], 42.0),
+        Camera::upright([-58.0, 17.0, 22.0], [0.0, 1.0, -6.0], 60.0),
+    ]
 }
 
-/// A rounded figure two units tall: body, head, arms and legs, its skin uneven.
-fn figure(builder: &mut MeshBuilder, triangles: usize) {
-    // Body and head take 2 x 4 d^2, four limbs 4 x 2 d^2.
-    let detail = ((triangles as f32 / 16.0).sqrt() as usize).max(3);
-    let skin = |v: f32| 1.0 + 0.015 * (v * 60.0).sin();
-    builder.revolution(Vec3::Y * 0.75, detail * 2, detail, |v| {
-        (
-            (0.42 * (v * PI).sin().max(0.0).powf(0.7) + 0.001) * skin(v),
-            v * 0.85,
-        )
-    });
-    builder.revolution(Vec3::Y * 1.55, detail * 2, detail, |v| {
-        (
-            (0.3 * (v * PI).sin().max(0.0).powf(0.8) + 0.001) * skin(v),
-            v * 0.55,
-        )
-    });
-    let limbs = [
-        [[0.35, 1.4, 0.0], [0.7, 1.25, 0.1], [0.85, 1.5, 0.3]],
-        [[-0.35, 1.4, 0.0], [-0.7, 1.1, 0.1], [-0.75, 0.8, 0.3]],
-        [[0.18, 0.9, 0.0], [0.25, 0.45, 0.1], [0.25, 0.0, 0.0]],
-        [[-0.18, 0.9, 0.0], [-0.25, 0.45, 0.1], [-0.25, 0.0, 0.0]],
-    ];
-    for limb in limbs {
-        let [from, middle, to] = limb.map(Vec3::from);
-        let steps = detail.max(2);
-        let path: Vec<Vec3> = (0..=steps)
-            .map(|i| {
-                let t = i as f32 / steps as f32;
-                from.lerp(middle, t).lerp(middle.lerp(to, t), t)
-            })
-            .collect();
-        builder.tube(&path, |v| (0.14 - 0.05 * v) * skin(v), detail);
+/// Pitch and stands; from 400 triangles on with masts and goals.
+fn surroundings(builder: &mut MeshBuilder, triangles: usize) {
+    let goal = builder.triangle_count() + triangles;
+    let corner = Vec3::new(-54.0, 0.0, -34.0);
+    builder.quad(corner, Vec3::Z * 68.0, Vec3::X * 108.0, [1, 1]);
+    if triangles >= 400 {
+        for side in [-1.0, 1.0] {
+            goal_frame(builder, side * 50.0);
+            mast(builder, Vec3::new(side * 72.0, 0.0, -60.0));
+            mast(builder, Vec3::new(side * 72.0, 0.0, 60.0));
+        }
+    }
+    let left = goal.saturating_sub(builder.triangle_count());
+    let tiers = ((left as f32 / 16.0).sqrt() as usize).clamp(1, 30);
+    stands(builder, tiers, left);
+}
+
+fn goal_frame(builder: &mut MeshBuilder, x: f32) {
+    let [left, right] = [-3.66, 3.66].map(|z| Vec3::new(x, 0.0, z));
+    let up = Vec3::Y * 2.44;
+    for bar in [
+        [left, left + up],
+        [left + up, right + up],
+        [right, right + up],
+    ] {
+        builder.tube(&bar, |_| 0.06, 4);
     }
 }
 
-/// Pitch and tiers of seats around it, long triangles each.
-fn stands(builder: &mut MeshBuilder, triangles: usize) {
-    builder.quad(
-        Vec3::new(-60.0, 0.0, -40.0),
-        Vec3::Z * 80.0,
-        Vec3::X * 120.0,
-        2,
+/// A floodlight turned to the centre.
+fn mast(builder: &mut MeshBuilder, foot: Vec3) {
+    let head = foot + Vec3::Y * 34.0;
+    builder.tube(&[foot, head], |v| 0.7 - 0.4 * v, 5);
+    builder.cuboid(
+        head - Vec3::new(3.0, 2.0, 0.3),
+        head + Vec3::new(3.0, 2.0, 0.3),
     );
-    let tiers = 24;
-    let around = (triangles.saturating_sub(builder.triangles().min(8)) / (tiers * 4)).max(6);
-    for tier in 0..tiers {
-        let (inner, outer) = (tier as f32, tier as f32 + 1.0);
-        let at = |u: f32, out: f32, y: f32| {
-            let angle = if u < 1.0 { u * TAU } else { 0.0 };
-            Vec3::new((62.0 + out) * angle.cos(), y, (42.0 + out) * angle.sin())
-        };
-        let height = 0.6 * inner;
-        builder.grid(around, 1, |u, v| at(u, inner, height + 0.6 * v));
-        builder.grid(around, 1, |u, v| {
-            at(u, inner + (outer - inner) * v, height + 0.6)
-        });
+}
+
+/// Oval tiers, each a riser and a tread, an outer wall and a roof over the upper
+/// half; a single tier is a plain slope.
+fn stands(builder: &mut MeshBuilder, tiers: usize, triangles: usize) {
+    let at = |u: f32, out: f32, y: f32| {
+        let (sin, cos) = full_turn(u);
+        Vec3::new((64.0 + out) * cos, y, (44.0 + out) * sin)
+    };
+    let (depth, height) = (26.0, 16.0);
+    if tiers == 1 {
+        let around = (triangles / 2).max(3);
+        builder.grid([around, 1], |u, v| at(u, depth * v, height * v));
+        return;
     }
+    let around = (triangles / (4 * tiers + 4)).max(3);
+    let (tread, riser) = (depth / tiers as f32, height / tiers as f32);
+    for tier in 0..tiers {
+        let (out, y) = (tier as f32 * tread, tier as f32 * riser);
+        builder.grid([around, 1], |u, v| at(u, out, y + riser * v));
+        builder.grid([around, 1], |u, v| at(u, out + tread * v, y + riser));
+    }
+    builder.grid([around, 1], |u, v| at(u, depth, 24.0 * v));
+    builder.grid([around, 1], |u, v| at(u, depth - 15.0 * v, 24.0 + 2.5 * v));
 }
