@@ -5,7 +5,7 @@
 //! triangles each candidate sees: if walls hide most of them from everywhere
 //! outside, candidates inside the bounds are tried as well.
 
-use std::cmp::Reverse;
+use std::array;
 
 use accel_core::glam::{DVec3, Vec3};
 
@@ -18,26 +18,26 @@ const SAMPLES: usize = 96;
 const OCCLUDERS: usize = 2048;
 /// The part of the triangles outside of the robust bounds on each side.
 const OUTLIERS: usize = 100;
-/// An outside view that sees less than a quarter of the samples may be before a
-/// closed room: of a closed convex object it sees a half.
-const CLOSED: usize = 4;
+/// An outside view that sees less of the samples, in percent, may be before the
+/// walls of a room: of a closed convex object it sees a half.
+const OPEN: usize = 40;
+/// How much an inside view has to see, in percent of what the outside view does.
+const WITHIN: usize = 150;
 /// The picture's width over its height that candidates are judged by.
 const ASPECT: [u32; 2] = [4, 3];
 
 pub(super) fn camera_seeing(mesh: &Mesh) -> Camera {
-    let facets = finite_facets(mesh);
-    if facets.is_empty() {
+    let Some(bounds) = Bounds::robust(mesh) else {
         return outside(&Bounds::UNIT, OUTSIDE[0]);
-    }
-    let bounds = Bounds::robust(&facets);
-    let scene = Sample::new(facets, &bounds);
+    };
+    let scene = Sample::new(mesh, &bounds);
     let views = OUTSIDE.map(|direction| outside(&bounds, direction));
     let (camera, seen) = scene.best_of(&views);
-    if seen * CLOSED >= scene.samples.len() {
+    if seen * 100 >= OPEN * scene.samples.len() {
         return camera;
     }
     let (within, seen_within) = scene.best_of(&inside(&bounds));
-    if seen_within > 2 * seen {
+    if seen_within * 100 > WITHIN * seen {
         within
     } else {
         camera
@@ -56,6 +56,7 @@ const OUTSIDE: [[f64; 3]; 6] = [
 ];
 
 /// A triangle by what framing needs of it.
+#[derive(Clone, Copy, PartialEq)]
 struct Facet {
     corners: [DVec3; 3],
     center: DVec3,
@@ -63,27 +64,35 @@ struct Facet {
     extent: f64,
 }
 
-fn finite_facets(mesh: &Mesh) -> Vec<Facet> {
-    let facet = |triangle: &[u32; 3]| {
+impl Facet {
+    /// `None` if a corner is not finite.
+    fn of(mesh: &Mesh, triangle: [u32; 3]) -> Option<Self> {
         let position = |index: u32| mesh.positions.get(index as usize).copied();
-        let [a, b, c] = triangle.map(|index| position(index).unwrap_or(Vec3::NAN));
-        let corners = [a, b, c].map(Vec3::as_dvec3);
+        let corners = triangle.map(|index| position(index).unwrap_or(Vec3::NAN).as_dvec3());
         let [a, b, c] = corners;
         let is_finite = corners.iter().all(|corner| corner.is_finite());
-        is_finite.then(|| Facet {
+        is_finite.then(|| Self {
             corners,
             center: (a + b + c) / 3.0,
             extent: a.distance(b).max(b.distance(c)).max(c.distance(a)),
         })
-    };
-    mesh.triangles.iter().filter_map(facet).collect()
+    }
 }
 
-/// The box of the middle 98 % of the centres on each axis, and the radius of a
-/// ball around its middle that holds them and a usual triangle.
+/// The facets of a mesh, made anew each time: large meshes have too many to keep.
+fn finite_facets(mesh: &Mesh) -> impl Iterator<Item = Facet> {
+    let facet = |&triangle: &[u32; 3]| Facet::of(mesh, triangle);
+    mesh.triangles.iter().filter_map(facet)
+}
+
+/// The box of the middle 98 % of the centres on each axis.
 struct Bounds {
     center: DVec3,
     half: DVec3,
+    /// The median extent of the triangles.
+    usual: f64,
+    /// Of a ball around the centre that holds the box and a usual triangle; never
+    /// 0.
     radius: f64,
 }
 
@@ -91,28 +100,34 @@ impl Bounds {
     const UNIT: Self = Self {
         center: DVec3::ZERO,
         half: DVec3::ONE,
+        usual: 0.0,
         radius: 1.0,
     };
 
-    fn robust(facets: &[Facet]) -> Self {
-        let outermost = facets.len() / OUTLIERS;
+    /// `None` if no triangle is finite.
+    fn robust(mesh: &Mesh) -> Option<Self> {
+        let mut values: Vec<f64> = finite_facets(mesh).map(|facet| facet.extent).collect();
+        let last = values.len().checked_sub(1)?;
+        let usual = nth(&mut values, last / 2);
+        let outermost = values.len() / OUTLIERS;
         let (mut low, mut high) = (DVec3::ZERO, DVec3::ZERO);
         for axis in 0..3 {
-            let mut along: Vec<f64> = facets.iter().map(|facet| facet.center[axis]).collect();
-            low[axis] = nth(&mut along, outermost);
-            high[axis] = nth(&mut along, facets.len() - 1 - outermost);
+            let along = finite_facets(mesh).map(|facet| facet.center[axis]);
+            values.clear();
+            values.extend(along);
+            low[axis] = nth(&mut values, outermost);
+            high[axis] = nth(&mut values, last - outermost);
         }
-        let mut extents: Vec<f64> = facets.iter().map(|facet| facet.extent).collect();
-        let usual = nth(&mut extents, facets.len() / 2);
         let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
         // A point far away still needs an eye that differs from it in f32.
         let least = center.abs().max_element() * 1e-4;
         let radius = (half.length() + usual * 0.5).max(least);
-        Self {
+        Some(Self {
             center,
             half,
+            usual,
             radius: if radius > 0.0 { radius } else { 1.0 },
-        }
+        })
     }
 }
 
@@ -120,30 +135,31 @@ fn nth(values: &mut [f64], n: usize) -> f64 {
     *values.select_nth_unstable_by(n, f64::total_cmp).1
 }
 
-/// Samples of the triangles within the bounds, and what may hide them.
+/// Some of the triangles within the bounds, and the largest of all, which may
+/// hide them.
 struct Sample {
-    facets: Vec<Facet>,
-    samples: Vec<usize>,
-    occluders: Vec<usize>,
+    samples: Vec<Facet>,
+    occluders: Vec<Facet>,
 }
 
 impl Sample {
-    fn new(facets: Vec<Facet>, bounds: &Bounds) -> Self {
-        let is_within = |&i: &usize| {
-            let from_center = (facets[i].center - bounds.center).abs();
+    fn new(mesh: &Mesh, bounds: &Bounds) -> Self {
+        let is_within = |facet: &Facet| {
+            let from_center = (facet.center - bounds.center).abs();
             from_center.cmple(bounds.half * (1.0 + 1e-9)).all()
         };
-        let within: Vec<usize> = (0..facets.len()).filter(is_within).collect();
-        let count = within.len().min(SAMPLES);
-        let samples = (0..count).map(|i| within[i * within.len() / count]);
-        let mut by_extent: Vec<usize> = (0..facets.len()).collect();
-        let count = by_extent.len().min(OCCLUDERS);
-        by_extent.select_nth_unstable_by_key(count - 1, |&i| Reverse(facets[i].extent.to_bits()));
-        by_extent.truncate(count);
+        let within = finite_facets(mesh).filter(is_within).count();
+        let samples = finite_facets(mesh)
+            .filter(is_within)
+            .step_by(within.div_ceil(SAMPLES).max(1));
+        let mut extents: Vec<f64> = finite_facets(mesh).map(|facet| facet.extent).collect();
+        let rank = extents.len().saturating_sub(OCCLUDERS);
+        let least = nth(&mut extents, rank);
+        let occluders = finite_facets(mesh).filter(|facet| facet.extent >= least);
         Self {
             samples: samples.collect(),
-            occluders: by_extent,
-            facets,
+            // Of many equally large ones, any will do.
+            occluders: occluders.take(OCCLUDERS).collect(),
         }
     }
 
@@ -163,22 +179,19 @@ impl Sample {
     fn seen(&self, camera: &Camera) -> usize {
         let frame = Frame::new(camera, ASPECT[0], ASPECT[1]);
         let eye = camera.eye.as_dvec3();
-        let is_seen = |&&sample: &&usize| {
-            let facet = &self.facets[sample];
+        let is_seen = |facet: &&Facet| {
             let in_frame = frame.project(facet.center.as_vec3());
             in_frame.is_some_and(|[x, y]| x.abs() <= 1.0 && y.abs() <= 1.0)
                 && !is_edge_on(facet, eye)
-                && !self.is_hidden(sample, eye)
+                && !self.is_hidden(facet, eye)
         };
         self.samples.iter().filter(is_seen).count()
     }
 
-    fn is_hidden(&self, sample: usize, eye: DVec3) -> bool {
-        let to = self.facets[sample].center - eye;
-        let others = self.occluders.iter().filter(|&&other| other != sample);
-        others
-            .map(|&other| &self.facets[other].corners)
-            .any(|corners| is_between(corners, eye, to))
+    fn is_hidden(&self, facet: &Facet, eye: DVec3) -> bool {
+        let to = facet.center - eye;
+        let mut others = self.occluders.iter().filter(|&other| other != facet);
+        others.any(|other| is_between(&other.corners, eye, to))
     }
 }
 
@@ -201,13 +214,27 @@ fn is_between(&[a, b, c]: &[DVec3; 3], eye: DVec3, to: DVec3) -> bool {
     u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 0.999
 }
 
-/// A view from `direction`, far enough for the bounds' ball to fit with room.
+/// A view from `direction`, as near as all corners of the bounds are in a square
+/// picture.
 fn outside(bounds: &Bounds, direction: [f64; 3]) -> Camera {
     let degrees: f32 = 45.0;
-    let half_angle = f64::from(degrees).to_radians() / 2.0;
-    let distance = 1.05 * bounds.radius / half_angle.sin();
-    let eye = bounds.center + DVec3::from(direction).normalize() * distance;
+    let towards = DVec3::from(direction).normalize();
+    let frame = Frame::new(&Camera::upright(towards.as_vec3(), [0.0; 3], degrees), 1, 1);
+    let needed = corners(bounds.half * 1.1 + bounds.usual / 2.0).map(|corner| {
+        let reach = |half: DVec3| corner.dot(half).abs() / half.length_squared();
+        reach(frame.right).max(reach(frame.up)) - corner.dot(frame.forward)
+    });
+    let distance = needed.into_iter().fold(bounds.radius, f64::max);
+    let eye = bounds.center + towards * distance;
     Camera::upright(rounded(eye), rounded(bounds.center), degrees)
+}
+
+/// The corners of a box around the origin.
+fn corners(half: DVec3) -> [DVec3; 8] {
+    array::from_fn(|i| {
+        let side = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
+        half * DVec3::new(side(1), side(2), side(4))
+    })
 }
 
 /// Views from between the middle and the bounds' corners and faces, to the middle.
@@ -243,7 +270,7 @@ mod tests {
     fn framed(mesh: &Mesh, camera: &Camera) -> usize {
         let camera = camera.validated().unwrap();
         let frame = Frame::new(&camera, ASPECT[0], ASPECT[1]);
-        let facets = finite_facets(mesh);
+        let facets: Vec<_> = finite_facets(mesh).collect();
         let is_framed = |facet: &&Facet| {
             let place = frame.project(facet.center.as_vec3());
             place.is_some_and(|[x, y]| x.abs() <= 1.0 && y.abs() <= 1.0)
@@ -329,7 +356,10 @@ mod tests {
             triangles: vec![[0, 1, 2]],
         };
         let camera = Camera::seeing(&mesh);
-        assert!(!is_edge_on(&finite_facets(&mesh)[0], camera.eye.as_dvec3()));
+        assert!(!is_edge_on(
+            &finite_facets(&mesh).next().unwrap(),
+            camera.eye.as_dvec3()
+        ));
     }
 
     #[test]

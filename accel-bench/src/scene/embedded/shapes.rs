@@ -14,8 +14,34 @@ pub(super) struct MeshBuilder {
 }
 
 impl MeshBuilder {
+    /// The mesh, without positions that no triangle uses, such as the spare ones
+    /// of a pole.
     pub(super) fn finish(self) -> Mesh {
-        self.mesh
+        let Mesh {
+            positions,
+            mut triangles,
+        } = self.mesh;
+        let mut is_used = vec![false; positions.len()];
+        for &index in triangles.iter().flatten() {
+            is_used[index as usize] = true;
+        }
+        let numbers: Vec<u32> = is_used
+            .iter()
+            .scan(0, |next, &is_used| {
+                let number = *next;
+                *next += u32::from(is_used);
+                Some(number)
+            })
+            .collect();
+        for index in triangles.iter_mut().flatten() {
+            *index = numbers[*index as usize];
+        }
+        let kept = positions.into_iter().zip(is_used);
+        let positions = kept.filter(|kept| kept.1).map(|kept| kept.0).collect();
+        Mesh {
+            positions,
+            triangles,
+        }
     }
 
     pub(super) fn triangle_count(&self) -> usize {

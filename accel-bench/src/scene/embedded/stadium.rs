@@ -26,11 +26,11 @@ pub fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// Pitch and stands; from 400 triangles on with masts and goals.
+/// The ground and the stands on it; from 400 triangles on with masts and goals.
 fn surroundings(builder: &mut MeshBuilder, triangles: usize) {
     let goal = builder.triangle_count() + triangles;
-    let corner = Vec3::new(-54.0, 0.0, -34.0);
-    builder.quad(corner, Vec3::Z * 68.0, Vec3::X * 108.0, [1, 1]);
+    let corner = Vec3::new(-92.0, 0.0, -72.0);
+    builder.quad(corner, Vec3::Z * 144.0, Vec3::X * 184.0, [1, 1]);
     if triangles >= 400 {
         for side in [-1.0, 1.0] {
             goal_frame(builder, side * 50.0);
