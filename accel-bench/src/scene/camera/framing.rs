@@ -16,7 +16,7 @@ use crate::scene::Mesh;
 const SAMPLES: usize = 96;
 /// The largest triangles, which may hide them.
 const OCCLUDERS: usize = 2048;
-/// The part of the triangles outside of the robust bounds on each side.
+/// One triangle in so many may be outside of the robust bounds on each side.
 const OUTLIERS: usize = 100;
 /// An outside view that sees less of the samples, in percent, may be before the
 /// walls of a room: of a closed convex object it sees a half.
@@ -195,7 +195,8 @@ impl Sample {
     }
 }
 
-/// Whether a triangle is seen as a line. One without area is always a line.
+/// Whether a triangle is seen as a line. One without area looks alike from
+/// everywhere, and speaks against no view.
 fn is_edge_on(facet: &Facet, eye: DVec3) -> bool {
     let [a, b, c] = facet.corners;
     let normal = (b - a).cross(c - a).normalize_or_zero();
