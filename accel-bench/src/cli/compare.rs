@@ -56,7 +56,11 @@ pub(super) fn run(options: &CompareOptions) -> anyhow::Result<bool> {
             if interrupt::is_requested() {
                 break;
             }
-            compare_scene(&scene, &rows, options, &mut report, &mut pictures)?;
+            let outcome = compare_scene(&scene, &rows, options, &mut report, &mut pictures);
+            // Ctrl-C cancels a build; what is done by then is reported.
+            if !interrupt::is_requested() {
+                outcome?;
+            }
         }
         Ok((report, pictures))
     })?;
