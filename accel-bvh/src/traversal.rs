@@ -43,7 +43,10 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
             Node::Leaf(offset) => {
                 statistics.visit_node(NodeKind::Leaf, LEAF_NODE_BYTES as u32);
                 let leaf = bvh.leaf_number(offset);
-                let flow = bvh.storage.intersect_leaf(leaf, ray, query, statistics);
+                let flow = bvh
+                    .stored
+                    .leaves()
+                    .intersect_leaf(leaf, ray, query, statistics);
                 if flow.is_break() {
                     return;
                 }
