@@ -57,16 +57,19 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 statistics.test_boxes(2);
                 let node = bvh.inner_node(offset);
                 let (near, met) = test.meets(&node, query.t_max());
-                let children = node.children().pointers();
-                // A chain of predictable branches; a jump table is slower.
-                if met == 0b11 {
-                    let nearer = usize::from(near[1] < near[0]);
-                    stack.push(children[1 - nearer], near[1 - nearer]);
-                    Some(children[nearer])
-                } else if met != 0 {
-                    Some(children[met as usize >> 1])
-                } else {
+                let [left, right] = node.children().pointers();
+                if met == 0 {
                     None
+                } else if met == 0b01 {
+                    Some(left)
+                } else if met == 0b10 {
+                    Some(right)
+                } else if near[0] <= near[1] {
+                    stack.push(right, near[1]);
+                    Some(left)
+                } else {
+                    stack.push(left, near[0]);
+                    Some(right)
                 }
             }
         };

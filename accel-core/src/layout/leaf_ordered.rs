@@ -37,7 +37,7 @@ impl<P: Primitive> LeafStorage<P> for LeafOrdered<P> {
         first
     }
 
-    #[inline]
+    #[inline(never)]
     fn intersect_leaf<Q: Query, S: TraversalStatistics>(
         &self,
         leaf: u32,
