@@ -182,3 +182,31 @@ fn say(line: &str) -> anyhow::Result<()> {
     writeln!(std::io::stdout(), "{line}")?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel_core::BruteForce;
+
+    #[test]
+    fn a_structure_that_lies_is_counted() {
+        let triangle = |z: f32| Triangle::new([0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]);
+        let boxed = |z: f32| -> Structure { Box::new(BruteForce::new(&[triangle(z)]).unwrap()) };
+        let rays = vec![RaySegment::new([0.2, 0.2, 0.0], [0.0, 0.0, 1.0]); 7];
+        let oracle = boxed(1.0);
+        let expected = Expected::new(oracle.as_ref(), Question::Closest, rays, &|_| ());
+        let structures = [("honest", boxed(1.0)), ("lying", boxed(2.0))];
+        let tally = compare(&structures, "rays", &expected).unwrap();
+        assert_eq!((tally.rays, tally.disagreements), (14, 7));
+    }
+
+    #[test]
+    fn rays_are_spread_over_all_of_them() {
+        let rays: Vec<_> = (0..100)
+            .map(|i| RaySegment::new([i as f32, 0.0, 0.0], [1.0, 0.0, 0.0]))
+            .collect();
+        let picked = spread(rays, 10);
+        assert_eq!(picked.len(), 10);
+        assert_eq!((picked[0].origin.x, picked[9].origin.x), (0.0, 90.0));
+    }
+}
