@@ -61,6 +61,24 @@ impl Expected {
         }
     }
 
+    /// The answers to whether there is any hit, from those to the closest-hit
+    /// question: brute force tests everything either way.
+    ///
+    /// # Panics
+    /// If another question was asked.
+    #[must_use]
+    pub fn into_any(self) -> Self {
+        let any = |answer| match answer {
+            Answer::Closest(hit) => Answer::Any(hit.is_some()),
+            other => panic!("{other:?} does not answer the closest-hit question"),
+        };
+        Self {
+            question: Question::Any,
+            answers: self.answers.into_iter().map(any).collect(),
+            rays: self.rays,
+        }
+    }
+
     /// How many rays there are.
     pub fn len(&self) -> usize {
         self.rays.len()
@@ -153,5 +171,9 @@ mod tests {
                 "{question:?}"
             );
         }
+        let empty = BruteForce::<Triangle>::new(&[]).unwrap();
+        let any = Expected::new(&oracle, Question::Closest, rays, &|_| ()).into_any();
+        assert_eq!(any.disagreements(&oracle).len(), 0);
+        assert_eq!(any.disagreements(&empty).len(), 1);
     }
 }

@@ -1,8 +1,8 @@
 //! The tree.
 
-use accel_core::layout::LeafStorage;
+use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
-use accel_core::statistics::{BytesByPart, NodeKind, TraversalStatistics, TreeOutline};
+use accel_core::statistics::{NodeKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
 use crate::node::{INNER_WORDS, InnerNode, Node, NodePointer};
@@ -13,13 +13,11 @@ use crate::node::{INNER_WORDS, InnerNode, Node, NodePointer};
 #[derive(Clone, Debug)]
 pub struct Bvh<P: Primitive> {
     pub(crate) words: Vec<u32>,
-    pub(crate) storage: P::Storage,
+    pub(crate) stored: StoredPrimitives<P>,
     /// `None` where there is nothing to hit.
     pub(crate) root: Option<Root>,
     /// Edges from the root to the deepest leaf.
     pub(crate) depth: u32,
-    pub(crate) primitive_count: usize,
-    pub(crate) skipped: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -40,11 +38,6 @@ impl<P: Primitive> Bvh<P> {
         self.depth
     }
 
-    /// The leaves' primitives.
-    pub fn storage(&self) -> &P::Storage {
-        &self.storage
-    }
-
     #[inline]
     pub(crate) fn inner_node(&self, offset: u32) -> InnerNode<'_> {
         let words = &self.words[offset as usize..offset as usize + INNER_WORDS];
@@ -60,6 +53,7 @@ impl<P: Primitive> Bvh<P> {
 
 impl<P: Primitive> AccelerationStructure for Bvh<P> {
     type Primitive = P;
+    type Storage = P::Storage;
 
     #[inline]
     fn traverse<Q: Query, S: TraversalStatistics>(
@@ -75,25 +69,12 @@ impl<P: Primitive> AccelerationStructure for Bvh<P> {
         self.root.map(|root| root.bounds)
     }
 
-    fn primitive(&self, id: u32) -> Option<P> {
-        self.storage.primitive(id)
+    fn stored(&self) -> &StoredPrimitives<P> {
+        &self.stored
     }
 
-    fn primitive_count(&self) -> usize {
-        self.primitive_count
-    }
-
-    fn skipped_count(&self) -> usize {
-        self.skipped
-    }
-
-    fn bytes(&self) -> BytesByPart {
-        let storage = self.storage.bytes();
-        BytesByPart {
-            nodes: size_of_val(self.words.as_slice()),
-            references: storage.references,
-            primitives: storage.primitives,
-        }
+    fn node_bytes(&self) -> usize {
+        size_of_val(self.words.as_slice())
     }
 
     fn outline(&self) -> TreeOutline {
@@ -106,7 +87,7 @@ impl<P: Primitive> AccelerationStructure for Bvh<P> {
         while let Some((pointer, bounds, parent)) = pending.pop() {
             match pointer.kind() {
                 Node::Leaf(offset) => {
-                    let ids = self.storage.leaf_ids(self.leaf_number(offset));
+                    let ids = self.stored.leaves().leaf_ids(self.leaf_number(offset));
                     outline.push_leaf(bounds, parent, ids);
                 }
                 Node::Inner(offset) => {

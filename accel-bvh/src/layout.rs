@@ -1,7 +1,7 @@
 //! From a build tree to words.
 
 use accel_core::build::{BuildNode, BuildTree, Cursor};
-use accel_core::layout::LeafStorage;
+use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, BuildBudget, BuildError, Primitive};
 
 use crate::bvh::{Bvh, Root};
@@ -17,11 +17,9 @@ impl<P: Primitive> Bvh<P> {
     pub(crate) fn empty(primitives: &[P], skipped: usize) -> Self {
         Self {
             words: Vec::new(),
-            storage: P::Storage::with_capacity(primitives, 0),
+            stored: StoredPrimitives::new(primitives, skipped, 0),
             root: None,
             depth: 0,
-            primitive_count: primitives.len(),
-            skipped,
         }
     }
 
@@ -52,16 +50,14 @@ impl<P: Primitive> Bvh<P> {
         let mut packing = Packing {
             primitives,
             words: Vec::with_capacity(words),
-            storage: P::Storage::with_capacity(primitives, references),
+            stored: StoredPrimitives::new(primitives, skipped, references),
         };
         let (pointer, depth) = packing.pack(tree.root());
         Ok(Self {
             words: packing.words,
-            storage: packing.storage,
+            stored: packing.stored,
             root: Some(Root { bounds, pointer }),
             depth,
-            primitive_count: primitives.len(),
-            skipped,
         })
     }
 }
@@ -69,7 +65,7 @@ impl<P: Primitive> Bvh<P> {
 struct Packing<'a, P: Primitive> {
     primitives: &'a [P],
     words: Vec<u32>,
-    storage: P::Storage,
+    stored: StoredPrimitives<P>,
 }
 
 impl<P: Primitive> Packing<'_, P> {
@@ -89,7 +85,7 @@ impl<P: Primitive> Packing<'_, P> {
             deepest = deepest.max(depth);
             match cursor.node() {
                 BuildNode::Leaf(ids) => {
-                    self.words[offset] = self.storage.push_leaf(self.primitives, ids);
+                    self.words[offset] = self.stored.leaves_mut().push_leaf(self.primitives, ids);
                 }
                 BuildNode::Inner { node, children } => {
                     let siblings = Siblings {

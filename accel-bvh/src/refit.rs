@@ -17,16 +17,16 @@ impl<P: Primitive> Bvh<P> {
     /// build; [`RefitError::InvalidPrimitive`] if one in the tree has no finite
     /// bounds any more. Then the tree is as it was.
     pub fn refit(&mut self, primitives: &[P]) -> Result<(), RefitError> {
-        if primitives.len() != self.primitive_count {
+        if primitives.len() != self.stored.count() {
             return Err(RefitError::CountMismatch {
                 given: primitives.len(),
-                expected: self.primitive_count,
+                expected: self.stored.count(),
             });
         }
         let Some(root) = self.root else { return Ok(()) };
         let order = self.depth_first(root.pointer);
         self.check_bounds(&order, primitives)?;
-        self.storage.replace(primitives);
+        self.stored.leaves_mut().replace(primitives);
         let root_bounds = self.refit_nodes(&order, primitives);
         if let Some(root) = &mut self.root {
             root.bounds = root_bounds;
@@ -53,7 +53,7 @@ impl<P: Primitive> Bvh<P> {
             let Node::Leaf(offset) = pointer.kind() else {
                 continue;
             };
-            for id in self.storage.leaf_ids(self.leaf_number(offset)) {
+            for id in self.stored.leaves().leaf_ids(self.leaf_number(offset)) {
                 let bounds = primitives[id as usize].bounds();
                 if !bounds.is_valid() {
                     return Err(RefitError::InvalidPrimitive { id, bounds });
@@ -70,7 +70,8 @@ impl<P: Primitive> Bvh<P> {
         for &pointer in order.iter().rev() {
             let bounds = match pointer.kind() {
                 Node::Leaf(offset) => self
-                    .storage
+                    .stored
+                    .leaves()
                     .leaf_ids(self.leaf_number(offset))
                     .map(|id| primitives[id as usize].bounds().gate())
                     .fold(Aabb::EMPTY, |all, gate| all.union(&gate)),

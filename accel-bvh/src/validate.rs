@@ -24,6 +24,6 @@ impl<P: Primitive> Bvh<P> {
             self.primitive(id)
                 .map(|primitive| primitive.bounds().gate())
         };
-        outline.validate(self.primitive_count, gate)
+        outline.validate(self.primitive_count(), gate)
     }
 }

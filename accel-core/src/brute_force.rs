@@ -3,12 +3,12 @@
 use crate::build::InvalidPrimitives;
 use crate::error::BuildError;
 use crate::geometry::Aabb;
-use crate::layout::LeafStorage;
+use crate::layout::{LeafStorage, StoredPrimitives};
 use crate::primitive::Primitive;
 use crate::query::Query;
 use crate::ray::PreparedRay;
 use crate::reference::gather;
-use crate::statistics::{BytesByPart, NodeKind, TraversalStatistics, TreeOutline};
+use crate::statistics::{NodeKind, TraversalStatistics, TreeOutline};
 use crate::structure::{AccelerationStructure, PacketTraversal};
 
 /// Tests every primitive: slow, simple, and by definition right. All other
@@ -29,12 +29,9 @@ use crate::structure::{AccelerationStructure, PacketTraversal};
 /// ```
 #[derive(Clone, Debug)]
 pub struct BruteForce<P: Primitive, L: LeafStorage<P> = <P as Primitive>::Storage> {
-    storage: L,
+    stored: StoredPrimitives<P, L>,
     /// The one leaf; `None` without primitives.
     leaf: Option<Leaf>,
-    primitive_count: usize,
-    skipped: usize,
-    primitives: std::marker::PhantomData<fn() -> P>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -66,23 +63,18 @@ impl<P: Primitive, L: LeafStorage<P>> BruteForce<P, L> {
             .iter()
             .map(|reference| reference.id)
             .collect();
-        let mut storage = L::with_capacity(primitives, ids.len());
+        let mut stored = StoredPrimitives::<P, L>::new(primitives, gathered.skipped, ids.len());
         let leaf = (!ids.is_empty()).then(|| Leaf {
-            number: storage.push_leaf(primitives, &ids),
+            number: stored.leaves_mut().push_leaf(primitives, &ids),
             bounds: gathered.bounds,
         });
-        Ok(Self {
-            storage,
-            leaf,
-            primitive_count: primitives.len(),
-            skipped: gathered.skipped,
-            primitives: std::marker::PhantomData,
-        })
+        Ok(Self { stored, leaf })
     }
 }
 
 impl<P: Primitive, L: LeafStorage<P>> AccelerationStructure for BruteForce<P, L> {
     type Primitive = P;
+    type Storage = L;
 
     fn traverse<Q: Query, S: TraversalStatistics>(
         &self,
@@ -93,7 +85,8 @@ impl<P: Primitive, L: LeafStorage<P>> AccelerationStructure for BruteForce<P, L>
         if let Some(leaf) = self.leaf {
             statistics.visit_node(NodeKind::Leaf, 0);
             let _ = self
-                .storage
+                .stored
+                .leaves()
                 .intersect_leaf(leaf.number, ray, query, statistics);
         }
     }
@@ -102,31 +95,22 @@ impl<P: Primitive, L: LeafStorage<P>> AccelerationStructure for BruteForce<P, L>
         self.leaf.map(|leaf| leaf.bounds)
     }
 
-    fn primitive(&self, id: u32) -> Option<P> {
-        self.storage.primitive(id)
+    fn stored(&self) -> &StoredPrimitives<P, L> {
+        &self.stored
     }
 
-    fn primitive_count(&self) -> usize {
-        self.primitive_count
-    }
-
-    fn skipped_count(&self) -> usize {
-        self.skipped
-    }
-
-    fn bytes(&self) -> BytesByPart {
-        let storage = self.storage.bytes();
-        BytesByPart {
-            nodes: 0,
-            references: storage.references,
-            primitives: storage.primitives,
-        }
+    fn node_bytes(&self) -> usize {
+        0
     }
 
     fn outline(&self) -> TreeOutline {
         let mut outline = TreeOutline::default();
         if let Some(leaf) = self.leaf {
-            outline.push_leaf(leaf.bounds, None, self.storage.leaf_ids(leaf.number));
+            outline.push_leaf(
+                leaf.bounds,
+                None,
+                self.stored.leaves().leaf_ids(leaf.number),
+            );
         }
         outline
     }

@@ -77,8 +77,8 @@ impl std::ops::Mul for F32x4 {
     }
 }
 
-// Twice as fast as what the compiler makes of arrays here: it turns the NaN rule
-// into comparisons and masks instead of one instruction.
+// Arrays instead made traversal of a binary BVH 1.1 to 1.2 times slower and its
+// builds 1.1 times: the compiler turns the NaN rule into comparisons and masks.
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 mod lanes {

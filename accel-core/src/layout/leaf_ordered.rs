@@ -37,7 +37,9 @@ impl<P: Primitive> LeafStorage<P> for LeafOrdered<P> {
         first
     }
 
-    #[inline]
+    // A call of its own keeps the kernel's registers out of the loop over nodes:
+    // inlined, coherent rays were 0.9 times as fast.
+    #[inline(never)]
     fn intersect_leaf<Q: Query, S: TraversalStatistics>(
         &self,
         leaf: u32,

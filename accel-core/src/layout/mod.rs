@@ -4,6 +4,7 @@ mod indexed;
 mod leaf_ordered;
 mod offer;
 mod reference_list;
+mod stored_primitives;
 mod triangle_blocks;
 
 use std::ops::ControlFlow;
@@ -17,6 +18,7 @@ pub use indexed::Indexed;
 pub use leaf_ordered::LeafOrdered;
 pub use offer::{offer_intersection, offer_primitive};
 pub use reference_list::{MAX_PRIMITIVES, ReferenceList};
+pub use stored_primitives::StoredPrimitives;
 pub use triangle_blocks::TriangleBlocks;
 
 /// Bytes that a leaf storage holds, by part.

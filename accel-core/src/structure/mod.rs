@@ -7,6 +7,7 @@ mod validation;
 
 use crate::build::join;
 use crate::geometry::Aabb;
+use crate::layout::{LeafStorage, StoredPrimitives};
 use crate::primitive::{Face, Primitive, SurfacePoint};
 use crate::query::{AllHits, AnyHit, ClosestHit, Filtered, Hit, Query};
 use crate::ray::{PreparedRay, Ray};
@@ -30,6 +31,9 @@ pub trait AccelerationStructure: Send + Sync {
     /// What the structure is built over.
     type Primitive: Primitive;
 
+    /// How its leaves hold them.
+    type Storage: LeafStorage<Self::Primitive>;
+
     /// Offers every hit that can matter to `query`: the only traversal a
     /// structure has.
     fn traverse<Q: Query, S: TraversalStatistics>(
@@ -42,20 +46,39 @@ pub trait AccelerationStructure: Send + Sync {
     /// The box around everything that can be hit; `None` for an empty scene.
     fn bounds(&self) -> Option<Aabb>;
 
-    /// The primitive with this id, `None` if there is none or it was skipped.
-    fn primitive(&self, id: u32) -> Option<Self::Primitive>;
+    /// The primitives in their leaves.
+    fn stored(&self) -> &StoredPrimitives<Self::Primitive, Self::Storage>;
 
-    /// How many primitives the structure was built over, skipped ones included.
-    fn primitive_count(&self) -> usize;
-
-    /// How many primitives were left out because their bounds are not finite.
-    fn skipped_count(&self) -> usize;
-
-    /// Bytes by part.
-    fn bytes(&self) -> BytesByPart;
+    /// Bytes that the nodes take.
+    fn node_bytes(&self) -> usize;
 
     /// The tree as a list of nodes.
     fn outline(&self) -> TreeOutline;
+
+    /// The primitive with this id, `None` if there is none or it was skipped.
+    fn primitive(&self, id: u32) -> Option<Self::Primitive> {
+        self.stored().leaves().primitive(id)
+    }
+
+    /// How many primitives the structure was built over, skipped ones included.
+    fn primitive_count(&self) -> usize {
+        self.stored().count()
+    }
+
+    /// How many primitives were left out because their bounds are not finite.
+    fn skipped_count(&self) -> usize {
+        self.stored().skipped()
+    }
+
+    /// Bytes by part.
+    fn bytes(&self) -> BytesByPart {
+        let storage = self.stored().leaves().bytes();
+        BytesByPart {
+            nodes: self.node_bytes(),
+            references: storage.references,
+            primitives: storage.primitives,
+        }
+    }
 
     /// Answers `query` for `ray`. A ray that can hit nothing, such as one with a
     /// NaN, visits no node.
