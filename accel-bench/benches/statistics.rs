@@ -96,13 +96,18 @@ impl ByHand {
                 let left = pointer & 0x3fff_ffff | (pointer & 0x4000_0000) << 1;
                 let left_words = if pointer & 0x4000_0000 == 0 { 13 } else { 1 };
                 let right = ((pointer & 0x3fff_ffff) + left_words) | pointer & 0x8000_0000;
-                let children = [left, right];
                 if met == 0b11 {
-                    let nearer = usize::from(near[1] < near[0]);
-                    stack.push(children[1 - nearer], near[1 - nearer]);
-                    next = Some(children[nearer]);
-                } else if met != 0 {
-                    next = Some(children[met as usize >> 1]);
+                    if near[0] <= near[1] {
+                        stack.push(right, near[1]);
+                        next = Some(left);
+                    } else {
+                        stack.push(left, near[0]);
+                        next = Some(right);
+                    }
+                } else if met == 0b01 {
+                    next = Some(left);
+                } else if met == 0b10 {
+                    next = Some(right);
                 }
             }
             if next.is_none() {
@@ -112,6 +117,7 @@ impl ByHand {
         best
     }
 
+    #[inline(never)]
     fn leaf(&self, word: usize, ray: &PreparedRay, t_max: &mut f32, best: &mut Option<Hit>) {
         for (triangle, id, is_last) in &self.triangles[self.words[word] as usize..] {
             if let Some(found) = triangle.intersect(ray) {
