@@ -48,7 +48,7 @@ pub enum ObjectSplit {
     /// (Stich 2009, section 2.1).
     FullSweep,
     /// Cuts between bins of equal width along every axis: nearly as good, and
-    /// several times faster to build (Wald 2007).
+    /// about twice as fast to build (Wald 2007).
     Binned {
         /// Bins per axis, 2 to 64. Small nodes use fewer.
         bins: usize,

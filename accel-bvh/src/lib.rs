@@ -5,7 +5,7 @@
 //! box misses everything in it. Which sets are best is told by the surface area
 //! heuristic: a box of small area is met by few rays. The *full sweep* weighs
 //! every cut in the order of the primitives along each axis; the *binned*
-//! search weighs a few dozen cuts and is several times faster. A ray visits the
+//! search weighs a few dozen cuts and is about twice as fast. A ray visits the
 //! nearer child first, and drops what lies behind the hit that it has.
 //!
 //! ```
