@@ -146,6 +146,7 @@ fn what_can_not_be_done_is_refused_with_a_reason() {
     assert_refused(here, &["--structures", "bvh"], &["bvh", "bvh-sweep"]);
     assert_refused(here, &["--rays", "gamma"], &["gamma", "primary"]);
     assert_refused(here, &["--rounds", "0"], &["--rounds"]);
+    assert_refused(here, &["--threads", "9999"], &["9999", "1024"]);
     assert_refused(here, &["--size", "0x9"], &["0x9"]);
     assert_refused(here, &["--camera", "1,2;3"], &["1,2;3"]);
     assert_refused(here, &["verify", "cylinder", "--rays", "0"], &["--rays"]);

@@ -43,7 +43,7 @@ pub(super) struct SceneOptions {
     #[arg(long)]
     pub skip_invalid: bool,
     /// Threads to use; 0 means all
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_parser = threads, value_name = "N")]
     pub threads: usize,
     /// Seed of everything random
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -150,6 +150,19 @@ pub(super) struct ScenesOptions {
     /// Write every embedded scene as an OBJ file into this folder
     #[arg(long, value_name = "DIR")]
     pub export: Option<PathBuf>,
+}
+
+/// The most threads that can be asked for.
+const MOST_THREADS: usize = 1024;
+
+/// Parses a number of threads.
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads) if threads <= MOST_THREADS => Ok(threads),
+        _ => Err(format!(
+            "`{text}` is not a number of threads from 0 to {MOST_THREADS}"
+        )),
+    }
 }
 
 /// The most pixels that a side may have.
