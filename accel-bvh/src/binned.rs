@@ -15,7 +15,7 @@ use accel_core::split::binning::{BinCut, Bins, MAX_BINS};
 use accel_core::split::partition;
 
 use crate::ChildBounds;
-use crate::strategy::NodeRules;
+use crate::node_rules::NodeRules;
 
 /// Larger sets are counted into bins in parallel.
 const PARALLEL_BINNING: usize = 1 << 15;

@@ -1,14 +1,15 @@
 //! Settings, and the way from primitives to a tree.
 
 use accel_core::build::{BuildTree, build_top_down};
-use accel_core::reference::{Gathered, gather};
+use accel_core::reference::{Reference, gather};
 use accel_core::split::binning::MAX_BINS;
 use accel_core::{
-    BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Primitive, SurfaceAreaHeuristic,
+    Aabb, BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Primitive,
+    SurfaceAreaHeuristic,
 };
 
 use crate::binned::{BinnedSearch, BinnedTask};
-use crate::strategy::NodeRules;
+use crate::node_rules::NodeRules;
 use crate::sweep::{SweepMemory, SweepSearch};
 use crate::{Bvh, ChildBounds, LeafRule};
 
@@ -89,11 +90,16 @@ impl BvhBuilder {
         if gathered.references.is_empty() {
             return Ok(Bvh::empty(primitives, skipped));
         }
-        let tree = self.build_tree(gathered, observer)?;
+        let rules = NodeRules::new(self, gathered.references.len());
+        let tree = self.build_tree(&rules, gathered.references, bounds, 0, observer)?;
         Bvh::from_build_tree(primitives, &tree, bounds, skipped, &self.budget)
     }
 
-    fn validate(&self) -> Result<(), BuildError> {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`BuildError::InvalidSetting`] names the first that is out of its range.
+    pub fn validate(&self) -> Result<(), BuildError> {
         self.heuristic.validate()?;
         self.leaf_rule.validate()?;
         self.budget.validate()?;
@@ -109,8 +115,9 @@ impl BvhBuilder {
         }
     }
 
-    /// What references and scratch memory take.
-    fn working_bytes(&self, primitives: usize) -> usize {
+    /// Bytes that references and scratch memory take while a tree is built over
+    /// this many primitives.
+    pub fn working_bytes(&self, primitives: usize) -> usize {
         let per_primitive = match self.object_split {
             ObjectSplit::FullSweep => SweepMemory::BYTES_PER_REFERENCE,
             ObjectSplit::Binned { .. } => BinnedTask::BYTES_PER_REFERENCE,
@@ -118,22 +125,34 @@ impl BvhBuilder {
         primitives.saturating_mul(per_primitive)
     }
 
-    fn build_tree(
+    /// Builds the tree over references that someone else made, of boxes within
+    /// `bounds`: for builders outside this crate. The root lies at `depth`: 0,
+    /// unless the tree becomes part of another. Of the settings, `object_split`
+    /// alone is used.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`] if `observer` asked for it.
+    ///
+    /// # Panics
+    /// If `references` is empty.
+    pub fn build_tree(
         &self,
-        gathered: Gathered,
+        rules: &NodeRules,
+        mut references: Vec<Reference>,
+        bounds: Aabb,
+        depth: u32,
         observer: &dyn BuildObserver,
     ) -> Result<BuildTree<ChildBounds>, BuildError> {
-        let mut references = gathered.references;
-        let rules = NodeRules::new(self, references.len());
+        assert!(!references.is_empty(), "a tree has at least one reference");
         match self.object_split {
             ObjectSplit::FullSweep => {
                 let mut memory = SweepMemory::new(references);
-                let task = memory.task(gathered.bounds);
-                build_top_down(&SweepSearch::new(rules), task, observer)
+                let search = SweepSearch::new(*rules);
+                build_top_down(&search, memory.task(bounds), depth, observer)
             }
             ObjectSplit::Binned { bins } => {
-                let task = BinnedTask::new(&mut references, gathered.bounds);
-                build_top_down(&BinnedSearch::new(rules, bins), task, observer)
+                let task = BinnedTask::new(&mut references, bounds);
+                build_top_down(&BinnedSearch::new(*rules, bins), task, depth, observer)
             }
         }
     }

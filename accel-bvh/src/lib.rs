@@ -52,8 +52,8 @@ mod bvh;
 mod layout;
 mod leaf_rule;
 mod node;
+mod node_rules;
 mod refit;
-mod strategy;
 mod sweep;
 mod traversal;
 mod validate;
@@ -63,6 +63,7 @@ pub use bvh::Bvh;
 pub use layout::ChildBounds;
 pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
+pub use node_rules::NodeRules;
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

@@ -18,7 +18,7 @@ use accel_core::reference::{Reference, bounds_of};
 use accel_core::split::{SplitCandidate, keep_better, partition, sweep};
 
 use crate::ChildBounds;
-use crate::strategy::NodeRules;
+use crate::node_rules::NodeRules;
 
 /// Nodes of at least this many references sweep their axes in parallel.
 const PARALLEL_SWEEP: usize = 1 << 15;

@@ -2,11 +2,13 @@
 
 mod budget;
 mod observer;
+mod parallel;
 mod recursion;
 mod tree;
 
 pub use budget::{BuildBudget, median_depth};
 pub use observer::BuildObserver;
+pub use parallel::{join, map_each};
 pub use recursion::{Division, TopDown, build_top_down};
 pub use tree::{BuildNode, BuildTree, Cursor};
 
@@ -19,19 +21,4 @@ pub enum InvalidPrimitives {
     /// Leave them out: they are never hit, all others keep their ids, and the
     /// structure tells how many were left out.
     Skip,
-}
-
-/// Runs both closures, in parallel where the feature `parallel` is on.
-pub fn join<A: Send, B: Send>(
-    left: impl FnOnce() -> A + Send,
-    right: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    #[cfg(feature = "parallel")]
-    {
-        rayon::join(left, right)
-    }
-    #[cfg(not(feature = "parallel"))]
-    {
-        (left(), right())
-    }
 }

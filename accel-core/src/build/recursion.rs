@@ -19,7 +19,8 @@ use crate::error::BuildError;
 /// Tasks of fewer references than this are built by one thread.
 const FORK_SIZE: usize = 4096;
 
-/// Forks deeper than this would nest too deep; a task there runs on one thread.
+/// Forks further below the root than this would nest too deep; a task there runs
+/// on one thread.
 const FORK_DEPTH: u32 = 24;
 
 /// A strategy: how to divide one node. The recursion does the rest.
@@ -50,35 +51,40 @@ pub enum Division<S: TopDown + ?Sized> {
     },
 }
 
-/// Builds the tree of `task`.
+/// Builds the tree of `task`, whose root lies at `depth`: 0, unless the tree
+/// becomes part of another.
 ///
 /// # Errors
 /// [`BuildError::Cancelled`] if `observer` asked for it.
 pub fn build_top_down<S: TopDown>(
     strategy: &S,
     task: S::Task,
+    depth: u32,
     observer: &dyn BuildObserver,
 ) -> Result<BuildTree<S::Node>, BuildError> {
     let recursion = Recursion {
         strategy,
         observer,
+        last_fork: depth + FORK_DEPTH,
         total: strategy.size(&task),
         done: AtomicUsize::new(0),
     };
-    let root = recursion.build(task, 0)?;
+    let root = recursion.build(task, depth)?;
     Ok(BuildTree { root })
 }
 
 struct Recursion<'a, S> {
     strategy: &'a S,
     observer: &'a dyn BuildObserver,
+    /// The depth from which on nothing forks.
+    last_fork: u32,
     total: usize,
     done: AtomicUsize,
 }
 
 impl<S: TopDown> Recursion<'_, S> {
     fn build(&self, task: S::Task, depth: u32) -> Result<Subtree<S::Node>, BuildError> {
-        if self.strategy.size(&task) < FORK_SIZE || depth >= FORK_DEPTH {
+        if self.strategy.size(&task) < FORK_SIZE || depth >= self.last_fork {
             return self.run(task, depth).map(Subtree::Run);
         }
         self.check_cancelled()?;
@@ -144,7 +150,7 @@ impl<S: TopDown> Recursion<'_, S> {
 }
 
 impl<I> Run<I> {
-    fn of_leaf(ids: Vec<u32>) -> Self {
+    pub(super) fn of_leaf(ids: Vec<u32>) -> Self {
         let mut run = Self {
             nodes: Vec::new(),
             ids,
@@ -212,7 +218,7 @@ mod tests {
     #[test]
     fn forks_and_runs_together_make_the_whole_tree_in_order() {
         for count in [1, 2, 100, 20_000] {
-            let tree = build_top_down(&Halving, 0..count, &()).unwrap();
+            let tree = build_top_down(&Halving, 0..count, 0, &()).unwrap();
             let mut ids = Vec::new();
             collect(tree.root(), &mut ids);
             assert_eq!(ids, (0..count).collect::<Vec<_>>());
@@ -233,10 +239,10 @@ mod tests {
             }
         }
         let watch = Watch(AtomicUsize::new(0), false);
-        build_top_down(&Halving, 0..20_000, &watch).unwrap();
+        build_top_down(&Halving, 0..20_000, 0, &watch).unwrap();
         assert_eq!(watch.0.into_inner(), 20_000);
         let cancel = Watch(AtomicUsize::new(0), true);
-        let result = build_top_down(&Halving, 0..20_000, &cancel);
+        let result = build_top_down(&Halving, 0..20_000, 0, &cancel);
         assert_eq!(result.unwrap_err(), BuildError::Cancelled);
     }
 }

@@ -59,6 +59,30 @@ impl<I> Clone for Cursor<'_, I> {
 impl<I> Copy for Cursor<'_, I> {}
 
 impl<I> BuildTree<I> {
+    /// The tree of one leaf, of the primitives with these ids.
+    pub fn of_leaf(ids: Vec<u32>) -> Self {
+        Self {
+            root: Subtree::Run(Run::of_leaf(ids)),
+        }
+    }
+
+    /// The tree of an inner node and its children. Nests by a level of the call
+    /// stack when it is read or dropped, so deep trees should be made by
+    /// [`build_top_down`](super::build_top_down).
+    pub fn of_children(node: I, left: Self, right: Self) -> Self {
+        Self {
+            root: Subtree::Fork {
+                node,
+                children: Box::new([left.root, right.root]),
+            },
+        }
+    }
+
+    /// Removes repeated ids from every leaf; those that stay are sorted.
+    pub fn remove_duplicates_in_leaves(&mut self) {
+        self.root.remove_duplicates_in_leaves();
+    }
+
     /// The root.
     pub fn root(&self) -> Cursor<'_, I> {
         Cursor {
@@ -85,6 +109,17 @@ impl<I> BuildTree<I> {
 }
 
 impl<I> Subtree<I> {
+    fn remove_duplicates_in_leaves(&mut self) {
+        match self {
+            Self::Run(run) => run.remove_duplicates_in_leaves(),
+            Self::Fork { children, .. } => {
+                for child in children.iter_mut() {
+                    child.remove_duplicates_in_leaves();
+                }
+            }
+        }
+    }
+
     fn references(&self) -> usize {
         match self {
             Self::Run(run) => run.ids.len(),
@@ -104,6 +139,23 @@ impl<I> Subtree<I> {
                 (left.0 + right.0 + 1, left.1 + right.1)
             }
         }
+    }
+}
+
+impl<I> Run<I> {
+    fn remove_duplicates_in_leaves(&mut self) {
+        let mut unique = Vec::with_capacity(self.ids.len());
+        for node in &mut self.nodes {
+            let RunNode::Leaf { first, count } = node else {
+                continue;
+            };
+            let leaf = &mut self.ids[*first as usize..(*first + *count) as usize];
+            leaf.sort_unstable();
+            let start = unique.len();
+            unique.extend(leaf.chunk_by(u32::eq).map(|equal| equal[0]));
+            (*first, *count) = (start as u32, (unique.len() - start) as u32);
+        }
+        self.ids = unique;
     }
 }
 
@@ -131,5 +183,27 @@ impl<'a, I> Cursor<'a, I> {
                 }
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeated_ids_leave_leaves_and_nothing_else_does() {
+        let leaf = |ids: &[u32]| BuildTree::of_leaf(ids.to_vec());
+        let mut tree = BuildTree::of_children((), leaf(&[3, 1, 3, 3]), leaf(&[1, 2]));
+        assert_eq!((tree.references(), tree.count()), (6, (1, 2)));
+        tree.remove_duplicates_in_leaves();
+        assert_eq!((tree.references(), tree.count()), (4, (1, 2)));
+        let BuildNode::Inner { children, .. } = tree.root().node() else {
+            panic!("the root has children");
+        };
+        let ids = children.map(|child| match child.node() {
+            BuildNode::Leaf(ids) => ids.to_vec(),
+            BuildNode::Inner { .. } => panic!("the children are leaves"),
+        });
+        assert_eq!(ids, [vec![1, 3], vec![1, 2]]);
     }
 }

@@ -4,7 +4,7 @@ mod clipping;
 mod gather;
 
 use crate::geometry::{Aabb, Axis, DAabb, GrowingBox};
-use crate::primitive::Clip;
+use crate::primitive::{Clip, Primitive};
 
 pub use clipping::{clip_polygon, clip_polygon_corners};
 pub use gather::{Gathered, gather};
@@ -17,6 +17,13 @@ pub struct Reference {
     pub bounds: Aabb,
     /// The primitive's position in the builder's input.
     pub id: u32,
+}
+
+impl AsRef<Self> for Reference {
+    #[inline(always)]
+    fn as_ref(&self) -> &Self {
+        self
+    }
 }
 
 /// A reference to the part of a primitive inside a cell.
@@ -43,9 +50,8 @@ impl Reference {
     /// part is inside.
     ///
     /// The *original* primitive is clipped, in double precision, and the result
-    /// is padded by a distance local to the primitive: 2^-20 of its largest
-    /// extent and one unit in the last place of its largest coordinate. The pad
-    /// stays within the cell enlarged by as much.
+    /// is padded as by [`to_part`](Self::to_part). The pad stays within the cell
+    /// enlarged by as much.
     pub fn clipped<P: Clip>(primitive: &P, id: u32, cell: &Aabb) -> Option<ClippedReference> {
         let tight = primitive.clip(cell)?;
         let pad = clip_pad(&primitive.bounds());
@@ -54,6 +60,15 @@ impl Reference {
             reference: Self { bounds, id },
             tight,
         })
+    }
+
+    /// The reference to a part of `primitive` that `tight` bounds.
+    ///
+    /// The box is padded by a distance local to the primitive: 2^-20 of its
+    /// largest extent and one unit in the last place of its largest coordinate.
+    pub fn to_part<P: Primitive>(primitive: &P, id: u32, tight: &DAabb) -> Self {
+        let bounds = tight.padded(clip_pad(&primitive.bounds()));
+        Self { bounds, id }
     }
 }
 
@@ -93,19 +108,19 @@ impl PartialOrd for SortKey {
 }
 
 /// The smallest box around all of `references`.
-pub fn bounds_of(references: &[Reference]) -> Aabb {
+pub fn bounds_of<R: AsRef<Reference>>(references: &[R]) -> Aabb {
     let mut bounds = GrowingBox::empty();
     for reference in references {
-        bounds.add(&reference.bounds);
+        bounds.add(&reference.as_ref().bounds);
     }
     bounds.bounds()
 }
 
 /// The smallest box around the centres of the boxes of all of `references`.
-pub fn centers_of(references: &[Reference]) -> Aabb {
+pub fn centers_of<R: AsRef<Reference>>(references: &[R]) -> Aabb {
     let mut centers = GrowingBox::empty();
     for reference in references {
-        centers.add_point(reference.bounds.center());
+        centers.add_point(reference.as_ref().bounds.center());
     }
     centers.bounds()
 }

@@ -98,11 +98,12 @@ impl<const N: usize> Bins<N> {
     }
 
     /// Counts `references` in.
-    pub fn fill(&mut self, references: &[Reference]) {
+    pub fn fill<R: AsRef<Reference>>(&mut self, references: &[R]) {
         let [x, y, z] = &self.mappings;
         if let (Some(x), Some(y), Some(z)) = (x, y, z) {
             // The usual case, in one pass.
             for reference in references {
+                let reference = reference.as_ref();
                 self.bins[0][x.bin_of(reference)].add(reference);
                 self.bins[1][y.bin_of(reference)].add(reference);
                 self.bins[2][z.bin_of(reference)].add(reference);
@@ -112,6 +113,7 @@ impl<const N: usize> Bins<N> {
         for (mapping, bins) in self.mappings.iter().zip(&mut self.bins) {
             let Some(mapping) = mapping else { continue };
             for reference in references {
+                let reference = reference.as_ref();
                 bins[mapping.bin_of(reference)].add(reference);
             }
         }

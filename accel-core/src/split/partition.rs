@@ -5,7 +5,7 @@ use crate::reference::Reference;
 
 /// Reorders `references` so that those for which `is_left` holds come first, and
 /// returns how many they are. Deterministic, but does not keep their order.
-pub fn in_place(references: &mut [Reference], is_left: impl Fn(&Reference) -> bool) -> usize {
+pub fn in_place<R>(references: &mut [R], is_left: impl Fn(&R) -> bool) -> usize {
     let (mut first, mut end) = (0, references.len());
     while first < end {
         if is_left(&references[first]) {
@@ -20,10 +20,10 @@ pub fn in_place(references: &mut [Reference], is_left: impl Fn(&Reference) -> bo
 
 /// As [`in_place`], keeping the order on both sides. `scratch` is as long as
 /// `references`.
-pub fn stable(
-    references: &mut [Reference],
-    scratch: &mut [Reference],
-    is_left: impl Fn(&Reference) -> bool,
+pub fn stable<R: Copy>(
+    references: &mut [R],
+    scratch: &mut [R],
+    is_left: impl Fn(&R) -> bool,
 ) -> usize {
     let (mut left, mut right) = (0, 0);
     for position in 0..references.len() {
@@ -42,11 +42,11 @@ pub fn stable(
 /// The fallback that always divides: half of the references, in the order along
 /// the widest axis of their centres, on each side. Returns the axis and the
 /// number on the left.
-pub fn at_median(references: &mut [Reference], centers: &Aabb) -> (Axis, usize) {
+pub fn at_median<R: AsRef<Reference>>(references: &mut [R], centers: &Aabb) -> (Axis, usize) {
     let axis = centers.widest_axis();
     let middle = references.len() / 2;
     if middle > 0 {
-        references.select_nth_unstable_by_key(middle, |reference| reference.key(axis));
+        references.select_nth_unstable_by_key(middle, |reference| reference.as_ref().key(axis));
     }
     (axis, middle)
 }

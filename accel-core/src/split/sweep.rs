@@ -15,8 +15,8 @@ use crate::reference::Reference;
 ///
 /// # Panics
 /// If `areas` is empty.
-pub fn cheapest_cut(
-    references: &[Reference],
+pub fn cheapest_cut<R: AsRef<Reference>>(
+    references: &[R],
     axis: Axis,
     parent_area: f64,
     heuristic: &SurfaceAreaHeuristic,
@@ -29,7 +29,7 @@ pub fn cheapest_cut(
     let (mut best, mut best_position) = (Rank::WORST, None);
     for (before, (reference, &area)) in references.iter().zip(&areas[1..]).enumerate() {
         let position = before + 1;
-        bounds.add(&reference.bounds);
+        bounds.add(&reference.as_ref().bounds);
         let counts = [position, count - position];
         let rank = Rank::new(node_cost.split([bounds.half_area(), area], counts), counts);
         if rank.beats(best) {
@@ -45,10 +45,10 @@ pub fn cheapest_cut(
 }
 
 /// `areas[i]` becomes the half area around `references[i..]`.
-fn record_areas_from_end(references: &[Reference], areas: &mut [f64]) {
+fn record_areas_from_end<R: AsRef<Reference>>(references: &[R], areas: &mut [f64]) {
     let mut bounds = GrowingBox::empty();
     for (reference, area) in references.iter().zip(areas).rev() {
-        bounds.add(&reference.bounds);
+        bounds.add(&reference.as_ref().bounds);
         *area = bounds.half_area();
     }
 }

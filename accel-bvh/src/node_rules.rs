@@ -1,13 +1,15 @@
-//! What both searches decide alike.
+//! What all searches decide alike.
 
 use accel_core::SurfaceAreaHeuristic;
 use accel_core::build::median_depth;
 
 use crate::{BvhBuilder, LeafRule};
 
-/// When to stop, and when to give up on the heuristic.
+/// When to stop, and when to give up on the heuristic: the decisions that every
+/// search makes alike, whatever it searches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NodeRules {
+pub struct NodeRules {
+    /// The costs that splits are weighed by.
     pub heuristic: SurfaceAreaHeuristic,
     leaf_rule: LeafRule,
     max_depth: u32,
@@ -15,7 +17,9 @@ pub(crate) struct NodeRules {
 }
 
 impl NodeRules {
-    pub(crate) fn new(builder: &BvhBuilder, references: usize) -> Self {
+    /// The rules that a builder's settings make for a tree over this many
+    /// references.
+    pub fn new(builder: &BvhBuilder, references: usize) -> Self {
         Self {
             heuristic: builder.heuristic,
             leaf_rule: builder.leaf_rule,
@@ -26,19 +30,19 @@ impl NodeRules {
 
     /// Whether a node is a leaf without looking for a split.
     #[inline]
-    pub(crate) fn ends_before_search(&self, count: usize, depth: u32) -> bool {
+    pub fn ends_before_search(&self, count: usize, depth: u32) -> bool {
         depth >= self.max_depth || count <= 1 || self.leaf_rule.ends_before_search(count)
     }
 
     /// Whether a node this deep must be halved, to bound the depth.
     #[inline]
-    pub(crate) fn must_halve(&self, depth: u32) -> bool {
+    pub fn must_halve(&self, depth: u32) -> bool {
         depth >= self.median_depth
     }
 
     /// Whether a node is a leaf rather than being split at this cost.
     #[inline]
-    pub(crate) fn prefers_leaf(&self, count: usize, split_cost: f64) -> bool {
+    pub fn prefers_leaf(&self, count: usize, split_cost: f64) -> bool {
         self.leaf_rule
             .prefers_leaf(count, split_cost, &self.heuristic)
     }
