@@ -121,6 +121,17 @@ impl Aabb {
         self.extent().max_element()
     }
 
+    /// This box with another range on one axis, empty where the two do not
+    /// overlap.
+    #[inline]
+    #[must_use]
+    pub fn with_range(mut self, axis: Axis, low: f32, high: f32) -> Self {
+        let axis = axis.index();
+        self.min[axis] = self.min[axis].max(low);
+        self.max[axis] = self.max[axis].min(high);
+        self
+    }
+
     /// The axis of the largest edge; the first of equals.
     pub fn widest_axis(&self) -> Axis {
         let extent = self.extent();

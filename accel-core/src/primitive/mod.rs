@@ -8,7 +8,7 @@ pub(crate) mod watertight;
 
 use glam::Vec3;
 
-use crate::geometry::{Aabb, DAabb, Plane, Side};
+use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, Side};
 use crate::layout::LeafStorage;
 use crate::query::Hit;
 use crate::ray::PreparedRay;
@@ -73,6 +73,21 @@ pub trait Clip: Primitive {
     fn clip(&self, cell: &Aabb) -> Option<DAabb> {
         let common = self.bounds().intersection(cell);
         (!common.is_empty()).then(|| common.into())
+    }
+
+    /// Grows each of `parts` to enclose the part of the primitive inside `cell`
+    /// and between two planes orthogonal to `axis`: `parts[i]` lies between
+    /// `planes[i]` and `planes[i + 1]`, and the planes ascend.
+    ///
+    /// Serves to estimate costs, so rounding may go either way. The default
+    /// clips once a part; an override may share work between the parts.
+    fn chop(&self, cell: &Aabb, axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
+        for (slab, part) in planes.windows(2).zip(parts) {
+            let slab_cell = cell.with_range(axis, slab[0], slab[1]);
+            if let Some(bounds) = self.clip(&slab_cell) {
+                part.add(&bounds.rounded_outward());
+            }
+        }
     }
 }
 

@@ -3,11 +3,11 @@
 use glam::Vec3;
 
 use super::{Clip, Intersection, Polygonal, Primitive, watertight};
-use crate::geometry::{Aabb, DAabb, Plane, rounding};
+use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, rounding};
 use crate::layout::LeafOrdered;
 use crate::query::Hit;
 use crate::ray::PreparedRay;
-use crate::reference::clip_polygon;
+use crate::reference::{chop_polygon, clip_polygon, clip_polygon_corners};
 
 /// A triangle with corners `a`, `b`, `c`. The point of a hit with barycentric
 /// coordinates `u`, `v` is `(1 - u - v) a + u b + v c`.
@@ -92,6 +92,11 @@ impl Primitive for Triangle {
 impl Clip for Triangle {
     fn clip(&self, cell: &Aabb) -> Option<DAabb> {
         clip_polygon(&self.vertices(), cell)
+    }
+
+    fn chop(&self, cell: &Aabb, axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
+        let corners = clip_polygon_corners(&self.vertices(), &DAabb::from(*cell));
+        chop_polygon(&corners, axis, planes, parts);
     }
 }
 

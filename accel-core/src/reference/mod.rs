@@ -1,11 +1,13 @@
 //! What builders sort and split: boxes with the ids of primitives.
 
+mod chopping;
 mod clipping;
 mod gather;
 
 use crate::geometry::{Aabb, Axis, DAabb, GrowingBox};
 use crate::primitive::{Clip, Primitive};
 
+pub use chopping::chop_polygon;
 pub use clipping::{clip_polygon, clip_polygon_corners};
 pub use gather::{Gathered, gather};
 
