@@ -61,6 +61,14 @@ impl F32x4 {
     }
 }
 
+impl std::ops::Add for F32x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(lanes::add(self.0, other.0))
+    }
+}
+
 impl std::ops::Sub for F32x4 {
     type Output = Self;
     #[inline(always)]
@@ -90,6 +98,11 @@ mod lanes {
     pub fn new(a: f32, b: f32, c: f32, d: f32) -> Lanes {
         // SAFETY: every x86-64 machine has SSE2; so in all functions here.
         unsafe { sse::_mm_setr_ps(a, b, c, d) }
+    }
+    #[inline(always)]
+    pub fn add(a: Lanes, b: Lanes) -> Lanes {
+        // SAFETY: as above.
+        unsafe { sse::_mm_add_ps(a, b) }
     }
     #[inline(always)]
     pub fn sub(a: Lanes, b: Lanes) -> Lanes {
@@ -151,6 +164,10 @@ mod lanes {
     #[inline(always)]
     pub fn new(a: f32, b: f32, c: f32, d: f32) -> Lanes {
         [a, b, c, d]
+    }
+    #[inline(always)]
+    pub fn add(a: Lanes, b: Lanes) -> Lanes {
+        zip(a, b, |a, b| a + b)
     }
     #[inline(always)]
     pub fn sub(a: Lanes, b: Lanes) -> Lanes {

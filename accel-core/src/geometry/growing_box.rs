@@ -42,6 +42,14 @@ impl GrowingBox {
         self.high = self.high.max_or_keep(point);
     }
 
+    /// Grows to enclose the point in the first three lanes; lanes that are not
+    /// numbers change nothing.
+    #[inline(always)]
+    pub fn add_lanes(&mut self, point: F32x4) {
+        self.low = self.low.min_or_keep(point);
+        self.high = self.high.max_or_keep(point);
+    }
+
     /// Grows to enclose `other`.
     #[inline(always)]
     pub fn merge(&mut self, other: &Self) {

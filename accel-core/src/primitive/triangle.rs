@@ -95,8 +95,16 @@ impl Clip for Triangle {
     }
 
     fn chop(&self, cell: &Aabb, axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
+        if cell.contains(&self.bounds()) {
+            return chop_polygon(self.vertices(), axis, planes, parts);
+        }
         let corners = clip_polygon_corners(&self.vertices(), &DAabb::from(*cell));
-        chop_polygon(&corners, axis, planes, parts);
+        chop_polygon(
+            corners.iter().map(|corner| corner.as_vec3()),
+            axis,
+            planes,
+            parts,
+        );
     }
 }
 

@@ -1,67 +1,85 @@
 //! Cutting convex polygons into slabs, for estimates.
 
-use glam::DVec3;
+use glam::Vec3;
 
 use crate::geometry::{Axis, GrowingBox};
+use crate::simd::F32x4;
 
 /// Grows each of `parts` to enclose the part of a convex polygon between two
 /// planes orthogonal to `axis`: `parts[i]` lies between `planes[i]` and
 /// `planes[i + 1]`. The planes ascend, and there is one more than parts. What
-/// lies outside all of them is left out. Rounds to nearest.
+/// lies outside all of them is left out. In single precision.
 ///
 /// The corners of a part are the polygon's corners between the planes and the
 /// points where its edges cross them, so one walk around the polygon serves all
 /// parts.
-pub fn chop_polygon(corners: &[DVec3], axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
-    let Some(&last) = corners.last() else { return };
-    let mut from = last;
-    for &to in corners {
-        add_corner(to, axis, planes, parts);
-        add_crossings([from, to], axis, planes, parts);
+pub fn chop_polygon(
+    corners: impl IntoIterator<Item = Vec3>,
+    axis: Axis,
+    planes: &[f32],
+    parts: &mut [GrowingBox],
+) {
+    let mut corners = corners.into_iter().map(|corner| {
+        let position = axis.of(corner);
+        Corner {
+            lanes: F32x4::new(corner.x, corner.y, corner.z, corner.z),
+            position,
+            planes_before: planes.partition_point(|&plane| plane <= position),
+        }
+    });
+    let Some(first) = corners.next() else { return };
+    let mut from = first;
+    add_corner(&first, planes, parts);
+    for to in corners {
+        add_corner(&to, planes, parts);
+        add_crossings(&from, &to, planes, parts);
         from = to;
     }
+    add_crossings(&from, &first, planes, parts);
 }
 
-/// How many of the planes lie at or before `position`.
-fn planes_up_to(planes: &[f32], position: f64) -> usize {
-    planes.partition_point(|&plane| f64::from(plane) <= position)
+#[derive(Clone, Copy)]
+struct Corner {
+    lanes: F32x4,
+    /// The coordinate along the axis.
+    position: f32,
+    /// How many planes lie at or before it.
+    planes_before: usize,
 }
 
 /// A corner belongs to the part that it lies in; on a plane, to both.
-fn add_corner(corner: DVec3, axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
-    let position = corner[axis.index()];
-    let after = planes_up_to(planes, position);
-    if let Some(part) = parts.get_mut(after.wrapping_sub(1)) {
-        part.add_point(corner.as_vec3());
+fn add_corner(corner: &Corner, planes: &[f32], parts: &mut [GrowingBox]) {
+    let Some(last_before) = corner.planes_before.checked_sub(1) else {
+        return;
+    };
+    if let Some(part) = parts.get_mut(last_before) {
+        part.add_lanes(corner.lanes);
     }
-    let is_on_plane = after > 0 && f64::from(planes[after - 1]) == position;
-    if is_on_plane && after > 1 {
-        parts[after - 2].add_point(corner.as_vec3());
+    if planes[last_before] == corner.position && last_before > 0 {
+        parts[last_before - 1].add_lanes(corner.lanes);
     }
 }
 
 /// A point where an edge crosses a plane belongs to the parts on both sides.
-fn add_crossings(edge: [DVec3; 2], axis: Axis, planes: &[f32], parts: &mut [GrowingBox]) {
-    let index = axis.index();
-    let [low, high] = if edge[0][index] < edge[1][index] {
-        edge
+fn add_crossings(from: &Corner, to: &Corner, planes: &[f32], parts: &mut [GrowingBox]) {
+    let [low, high] = if from.position < to.position {
+        [from, to]
     } else {
-        [edge[1], edge[0]]
+        [to, from]
     };
-    let first = planes_up_to(planes, low[index]);
-    let slope = (high - low) / (high[index] - low[index]);
-    for (plane, &position) in planes.iter().enumerate().skip(first) {
-        let position = f64::from(position);
-        if position >= high[index] {
+    let length = high.position - low.position;
+    let slope = (high.lanes - low.lanes) * F32x4::splat(1.0 / length);
+    for plane in low.planes_before..high.planes_before {
+        let position = planes[plane];
+        if position >= high.position {
             break;
         }
-        let mut crossing = low + slope * (position - low[index]);
-        crossing[index] = position;
-        let crossing = crossing.as_vec3();
-        for part in [plane.wrapping_sub(1), plane] {
-            if let Some(part) = parts.get_mut(part) {
-                part.add_point(crossing);
-            }
+        let crossing = low.lanes + slope * F32x4::splat(position - low.position);
+        if plane > 0 {
+            parts[plane - 1].add_lanes(crossing);
+        }
+        if let Some(part) = parts.get_mut(plane) {
+            part.add_lanes(crossing);
         }
     }
 }

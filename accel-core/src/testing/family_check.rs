@@ -18,7 +18,8 @@ pub struct Effort {
     pub triangles: usize,
     /// Rays per small scene.
     pub rays: usize,
-    /// Rays per scene at the family's full size, of which there is one.
+    /// Rays per scene at the family's full size, of which there is one; none if
+    /// this is 0.
     pub full_size_rays: usize,
 }
 
@@ -139,7 +140,8 @@ where
         families: 1,
         ..Checked::default()
     };
-    for seed in 0..=effort.seeds {
+    let full_size_scenes = u64::from(effort.full_size_rays > 0);
+    for seed in 0..effort.seeds + full_size_scenes {
         // The last scene is the one at full size.
         let (triangles, rays) = if seed < effort.seeds {
             let triangles = effort.triangles >> (seed % 3);
