@@ -28,6 +28,9 @@
 //! - Stich, Friedrich and Dietrich, *Spatial Splits in Bounding Volume
 //!   Hierarchies*, 2009: all of sections 3 to 5, and of section 6.1 the hard
 //!   memory limit, the parallel build and refitting.
+//! - Ernst and Greiner, *Early Split Clipping for Bounding Volume Hierarchies*,
+//!   2007, and Dammertz and Keller, *The Edge Volume Heuristic*, 2008: the methods
+//!   that the paper compares with, in [`presplit`].
 //! - Waechter and Keller, *Terminating Spatial Hierarchies by A Priori Bounding
 //!   Memory*, 2007: a limit that is known before the build
 //!   ([`ReferenceLimit::TreeBytes`], [`Spending::Shares`]).
@@ -57,6 +60,7 @@ mod limit;
 mod node;
 mod object_split;
 mod partitioning;
+pub mod presplit;
 mod spatial_split;
 mod statistics;
 mod waiting;

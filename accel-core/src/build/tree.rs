@@ -78,6 +78,12 @@ impl<I> BuildTree<I> {
         }
     }
 
+    /// Replaces every id: for builders that number their references while they
+    /// build.
+    pub fn map_ids(&mut self, primitive_of: impl Fn(u32) -> u32) {
+        self.root.map_ids(&primitive_of);
+    }
+
     /// Removes repeated ids from every leaf; those that stay are sorted.
     pub fn remove_duplicates_in_leaves(&mut self) {
         self.root.remove_duplicates_in_leaves();
@@ -109,6 +115,21 @@ impl<I> BuildTree<I> {
 }
 
 impl<I> Subtree<I> {
+    fn map_ids(&mut self, primitive_of: &impl Fn(u32) -> u32) {
+        match self {
+            Self::Run(run) => {
+                for id in &mut run.ids {
+                    *id = primitive_of(*id);
+                }
+            }
+            Self::Fork { children, .. } => {
+                for child in children.iter_mut() {
+                    child.map_ids(primitive_of);
+                }
+            }
+        }
+    }
+
     fn remove_duplicates_in_leaves(&mut self) {
         match self {
             Self::Run(run) => run.remove_duplicates_in_leaves(),
@@ -193,7 +214,8 @@ mod tests {
     #[test]
     fn repeated_ids_leave_leaves_and_nothing_else_does() {
         let leaf = |ids: &[u32]| BuildTree::of_leaf(ids.to_vec());
-        let mut tree = BuildTree::of_children((), leaf(&[3, 1, 3, 3]), leaf(&[1, 2]));
+        let mut tree = BuildTree::of_children((), leaf(&[13, 11, 13, 13]), leaf(&[11, 12]));
+        tree.map_ids(|id| id - 10);
         assert_eq!((tree.references(), tree.count()), (6, (1, 2)));
         tree.remove_duplicates_in_leaves();
         assert_eq!((tree.references(), tree.count()), (4, (1, 2)));

@@ -73,7 +73,7 @@ impl PreparedRay {
         let t_min = if t_min > 0.0 { t_min } else { 0.0 };
         // False for a NaN bound as well.
         let has_interval = t_min <= t_max;
-        let reciprocal = direction.recip();
+        let reciprocal = Vec3::from_array(direction.to_array().map(usable_reciprocal));
         has_interval.then(|| Self {
             origin,
             direction,
@@ -99,7 +99,8 @@ impl PreparedRay {
     }
 
     /// One over the direction, infinite where a component is zero. Its sign is
-    /// the sign to order planes by.
+    /// the sign to order planes by. NaN where one over the component is no normal
+    /// number: such an axis constrains nothing.
     #[inline]
     pub fn reciprocal(&self) -> Vec3 {
         self.reciprocal
@@ -177,7 +178,8 @@ impl PreparedRay {
     }
 
     /// The parameter at which the ray crosses the plane at `position` on
-    /// `axis`; NaN when it runs inside that plane.
+    /// `axis`; NaN when it runs inside that plane, or where the direction there
+    /// is too small or too large to tell.
     #[inline]
     pub fn plane_distance(&self, axis: Axis, position: f32) -> f32 {
         (position - axis.of(self.origin)) * axis.of(self.reciprocal)
@@ -195,6 +197,22 @@ impl Shear {
             y: rotated.y / rotated.z,
             along: rotated.z,
         }
+    }
+}
+
+/// One over a component of a direction, where that is as exact as the pads
+/// assume, or infinity for zero. Elsewhere, for components below about 1e-38 or
+/// above 1e38, NaN: an overflow would cull boxes that the ray meets.
+#[inline]
+fn usable_reciprocal(component: f32) -> f32 {
+    /// Leaves room for the pad.
+    const LARGEST: f32 = f32::MAX / 2.0;
+    let reciprocal = 1.0 / component;
+    let is_exact = (f32::MIN_POSITIVE..=LARGEST).contains(&reciprocal.abs());
+    if is_exact || component == 0.0 {
+        reciprocal
+    } else {
+        f32::NAN
     }
 }
 
@@ -285,6 +303,17 @@ mod tests {
         let ray = RaySegment::new([1.5, 0.5, -1.0], [0.0, 0.0, 1.0]);
         let ray = PreparedRay::new(&ray).unwrap();
         assert!(ray.slab(&unit_box()).is_empty());
+    }
+
+    #[test]
+    fn directions_without_a_normal_reciprocal_lose_no_box() {
+        for (component, t) in [(1e-40_f32, 2e37_f32), (-1e-40, 2e37), (3e38, 6.7e-42)] {
+            let z = component * t;
+            let bounds = Aabb::new([-1.0, -1.0, z - 1e-4], [1.0, 1.0, z + 1e-4]);
+            let ray = RaySegment::new([0.0; 3], [0.0, 0.0, component]);
+            let interval = PreparedRay::new(&ray).unwrap().slab(&bounds);
+            assert!(interval.near <= t && t <= interval.far, "{interval:?}");
+        }
     }
 
     #[test]

@@ -67,7 +67,8 @@ impl Reference {
     /// The reference to a part of `primitive` that `tight` bounds.
     ///
     /// The box is padded by a distance local to the primitive: 2^-20 of its
-    /// largest extent and one unit in the last place of its largest coordinate.
+    /// largest extent and one unit in the last place of its largest coordinate,
+    /// and no less than its gate box is.
     pub fn to_part<P: Primitive>(primitive: &P, id: u32, tight: &DAabb) -> Self {
         let bounds = tight.padded(clip_pad(&primitive.bounds()));
         Self { bounds, id }
@@ -81,7 +82,12 @@ fn clip_pad(bounds: &Aabb) -> f64 {
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     let ulp = f64::from(largest.next_up()) - f64::from(largest);
     let ulp = if ulp.is_finite() { ulp } else { 0.0 };
-    bounds.largest_extent() * RELATIVE_PAD + ulp
+    let gate = bounds.gate();
+    let below = bounds.min.as_dvec3() - gate.min.as_dvec3();
+    let above = gate.max.as_dvec3() - bounds.max.as_dvec3();
+    // Parts that make up the whole enclose the gate box of the whole.
+    let gate_pad = below.max(above).max_element();
+    (bounds.largest_extent() * RELATIVE_PAD + ulp).max(gate_pad)
 }
 
 /// Where a reference stands in the order along an axis.
