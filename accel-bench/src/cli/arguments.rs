@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::rays::RayKind;
 use crate::scene::camera::Camera;
+use crate::scene::rotation::Rotation;
 
 /// Compares ray-tracing acceleration structures. No row is printed unless its
 /// hits equal brute force's, bit for bit.
@@ -39,6 +40,10 @@ pub(super) struct SceneOptions {
     /// left out.
     #[arg(long, value_name = "CAMERA", allow_hyphen_values = true)]
     pub camera: Option<Camera>,
+    /// Turn the scene and its camera about the axes, in degrees: first about x,
+    /// then about y, then about z
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub rotate: Option<Rotation>,
     /// Leave out triangles with corners that are not finite numbers
     #[arg(long)]
     pub skip_invalid: bool,

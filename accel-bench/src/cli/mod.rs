@@ -81,6 +81,9 @@ fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
     if let Some(camera) = options.camera {
         scene.camera = camera;
     }
+    if let Some(rotation) = options.rotate {
+        scene.rotate(rotation);
+    }
     Ok(scene)
 }
 

@@ -5,6 +5,7 @@ pub mod embedded;
 pub mod mesh;
 pub mod obj;
 pub mod obj_export;
+pub mod rotation;
 
 use std::path::Path;
 
@@ -15,6 +16,7 @@ use camera::Camera;
 use obj::{ObjError, ObjLimits};
 
 pub use mesh::Mesh;
+use rotation::Rotation;
 
 /// A scene ready for building.
 #[derive(Clone, Debug)]
@@ -82,6 +84,20 @@ impl Scene {
             }),
             _ => Ok(scene),
         }
+    }
+
+    /// Turns triangles and camera, so that the picture stays the same; the name
+    /// says so.
+    pub fn rotate(&mut self, rotation: Rotation) {
+        for triangle in &mut self.triangles {
+            let corners = triangle.vertices().map(|corner| rotation.apply(corner));
+            *triangle = Triangle::from(corners);
+        }
+        let camera = &mut self.camera;
+        for vector in [&mut camera.eye, &mut camera.look_at, &mut camera.up] {
+            *vector = rotation.apply(*vector);
+        }
+        self.name = format!("{} rotated {rotation}", self.name);
     }
 
     /// The positions of triangles without finite corners.

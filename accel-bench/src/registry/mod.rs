@@ -1,6 +1,8 @@
 //! The table of structures and settings: adding a structure is adding a row.
 
-use accel_bvh::{BvhBuilder, ObjectSplit};
+mod bvh;
+mod sbvh;
+
 use accel_core::layout::TriangleBlocks;
 use accel_core::{
     BruteForce, BuildError, BuildObserver, DynStructure, InvalidPrimitives, SurfaceAreaHeuristic,
@@ -44,55 +46,17 @@ impl Row {
     }
 }
 
-static ROWS: &[Row] = &[
-    Row {
-        name: "bvh-sweep",
-        is_headline: true,
-        about: "BVH, full-sweep SAH over three axes, 52/4-byte nodes",
-        settings: "full sweep, SahUpTo(8), C_t = C_i = 1",
-        heuristic: SurfaceAreaHeuristic::default,
-        build: |triangles, invalid, observer| {
-            build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)
-        },
-    },
-    Row {
-        name: "bvh-binned",
-        is_headline: true,
-        about: "BVH, binned SAH (32 bins), 52/4-byte nodes",
-        settings: "32 bins, SahUpTo(8), C_t = C_i = 1",
-        heuristic: SurfaceAreaHeuristic::default,
-        build: |triangles, invalid, observer| {
-            build_bvh(
-                ObjectSplit::Binned { bins: 32 },
-                triangles,
-                invalid,
-                observer,
-            )
-        },
-    },
-    Row {
-        name: "brute-force",
-        is_headline: false,
-        about: "every triangle tested, sixteen at once: the oracle",
-        settings: "",
-        heuristic: SurfaceAreaHeuristic::default,
-        build: |triangles, invalid, _| Ok(Box::new(oracle(triangles, invalid)?)),
-    },
-];
+static BRUTE_FORCE: &[Row] = &[Row {
+    name: "brute-force",
+    is_headline: false,
+    about: "every triangle tested, sixteen at once: the oracle",
+    settings: "",
+    heuristic: SurfaceAreaHeuristic::default,
+    build: |triangles, invalid, _| Ok(Box::new(oracle(triangles, invalid)?)),
+}];
 
-fn build_bvh(
-    object_split: ObjectSplit,
-    triangles: &[Triangle],
-    invalid_primitives: InvalidPrimitives,
-    observer: &dyn BuildObserver,
-) -> Result<Structure, BuildError> {
-    let builder = BvhBuilder {
-        object_split,
-        invalid_primitives,
-        ..BvhBuilder::default()
-    };
-    Ok(Box::new(builder.build_with(triangles, observer)?))
-}
+/// The rows of every crate, in the order of tables.
+static ROWS: &[&[Row]] = &[bvh::ROWS, sbvh::ROWS, BRUTE_FORCE];
 
 /// The brute force that every row must agree with.
 ///
@@ -106,8 +70,8 @@ pub fn oracle(
 }
 
 /// All rows.
-pub fn rows() -> &'static [Row] {
-    ROWS
+pub fn rows() -> impl Iterator<Item = &'static Row> {
+    ROWS.iter().copied().flatten()
 }
 
 /// The rows of a list of names; `all` stands for every row but brute force,
@@ -117,21 +81,21 @@ pub fn rows() -> &'static [Row] {
 /// A sentence that names the first unknown name and those there are.
 pub fn select(names: &[String]) -> Result<Vec<&'static Row>, String> {
     if names.is_empty() {
-        return Ok(ROWS.iter().filter(|row| row.is_headline).collect());
+        return Ok(rows().filter(|row| row.is_headline).collect());
     }
     let mut selected: Vec<&Row> = Vec::new();
     for name in names {
         let before = selected.len();
         let is_named =
             |row: &&Row| row.name == name || (name == "all" && row.name != "brute-force");
-        for row in ROWS.iter().filter(is_named) {
+        for row in rows().filter(is_named) {
             if selected.iter().all(|other| other.name != row.name) {
                 selected.push(row);
             }
         }
-        let is_known = ROWS.iter().any(|row| is_named(&row));
+        let is_known = rows().any(|row| is_named(&row));
         if selected.len() == before && !is_known {
-            let known: Vec<_> = ROWS.iter().map(|row| row.name).collect();
+            let known: Vec<_> = rows().map(|row| row.name).collect();
             return Err(format!(
                 "there is no structure named `{name}`; there are {} and `all`",
                 known.join(", ")
@@ -152,10 +116,10 @@ mod tests {
 
     #[test]
     fn selections_name_each_row_once() {
-        assert_eq!(
-            names(&["bvh-binned", "all"]).unwrap(),
-            ["bvh-binned", "bvh-sweep"]
-        );
+        let all = names(&["bvh-binned", "all"]).unwrap();
+        assert_eq!(all[..2], ["bvh-binned", "bvh-sweep"]);
+        assert_eq!(all.iter().filter(|name| **name == "bvh-binned").count(), 1);
+        assert!(!all.contains(&"brute-force"));
         assert_eq!(names(&["brute-force"]).unwrap(), ["brute-force"]);
         assert!(names(&[]).unwrap().contains(&"bvh-sweep"));
         assert!(names(&["bvh"]).unwrap_err().contains("bvh-sweep"));

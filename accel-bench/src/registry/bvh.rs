@@ -1,0 +1,48 @@
+//! The rows of accel-bvh.
+
+use accel_bvh::{BvhBuilder, ObjectSplit};
+use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
+
+use super::{Row, Structure};
+
+pub(super) static ROWS: &[Row] = &[
+    Row {
+        name: "bvh-sweep",
+        is_headline: true,
+        about: "BVH, full-sweep SAH over three axes, 52/4-byte nodes",
+        settings: "full sweep, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "bvh-binned",
+        is_headline: true,
+        about: "BVH, binned SAH (32 bins), 52/4-byte nodes",
+        settings: "32 bins, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            build_bvh(
+                ObjectSplit::Binned { bins: 32 },
+                triangles,
+                invalid,
+                observer,
+            )
+        },
+    },
+];
+
+fn build_bvh(
+    object_split: ObjectSplit,
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    let builder = BvhBuilder {
+        object_split,
+        invalid_primitives,
+        ..BvhBuilder::default()
+    };
+    Ok(Box::new(builder.build_with(triangles, observer)?))
+}

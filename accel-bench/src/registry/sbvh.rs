@@ -1,0 +1,110 @@
+//! The rows of accel-sbvh.
+
+use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
+use accel_sbvh::presplit::{EarlySplitClipping, EdgeVolumeHeuristic};
+use accel_sbvh::{CandidateClipping, ReferenceLimit, SbvhBuilder};
+
+use super::{Row, Structure};
+
+pub(super) static ROWS: &[Row] = &[
+    Row {
+        name: "esc",
+        is_headline: false,
+        about: "early split clipping, then full-sweep SAH, 52/4-byte nodes",
+        settings: "1.25 references a triangle, full sweep, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let mut builder = EarlySplitClipping::default();
+            builder.bvh.invalid_primitives = invalid;
+            Ok(Box::new(builder.build_with(triangles, observer)?.0))
+        },
+    },
+    Row {
+        name: "evh",
+        is_headline: false,
+        about: "edge volume heuristic, then full-sweep SAH, 52/4-byte nodes",
+        settings: "1.25 references a triangle, full sweep, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let mut builder = EdgeVolumeHeuristic::default();
+            builder.bvh.invalid_primitives = invalid;
+            Ok(Box::new(builder.build_with(triangles, observer)?.0))
+        },
+    },
+    Row {
+        name: "sbvh",
+        is_headline: true,
+        about: "SBVH: object and spatial splits, 52/4-byte nodes",
+        settings: "alpha 1e-5, 256 bins, at most 4 references a triangle, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            build_sbvh(SbvhBuilder::default(), triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "sbvh-box-clip",
+        is_headline: false,
+        about: "SBVH whose candidates clip boxes, not triangles",
+        settings: "as sbvh, CandidateClipping::Boxes",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let builder = SbvhBuilder {
+                clipping: CandidateClipping::Boxes,
+                ..SbvhBuilder::default()
+            };
+            build_sbvh(builder, triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "sbvh-no-unsplit",
+        is_headline: false,
+        about: "SBVH without reference unsplitting",
+        settings: "as sbvh, unsplitting off",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let builder = SbvhBuilder {
+                unsplitting: false,
+                ..SbvhBuilder::default()
+            };
+            build_sbvh(builder, triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "sbvh-full",
+        is_headline: false,
+        about: "SBVH that attempts a spatial split wherever boxes overlap",
+        settings: "as sbvh, alpha 0",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let builder = SbvhBuilder {
+                alpha: 0.0,
+                ..SbvhBuilder::default()
+            };
+            build_sbvh(builder, triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "sbvh-limit-110",
+        is_headline: false,
+        about: "SBVH with at most 1.1 references a triangle",
+        settings: "as sbvh, ReferenceLimit::Factor(1.1)",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let builder = SbvhBuilder {
+                limit: ReferenceLimit::Factor(1.1),
+                ..SbvhBuilder::default()
+            };
+            build_sbvh(builder, triangles, invalid, observer)
+        },
+    },
+];
+
+fn build_sbvh(
+    mut builder: SbvhBuilder,
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    builder.invalid_primitives = invalid_primitives;
+    Ok(Box::new(builder.build_with(triangles, observer)?.0))
+}
