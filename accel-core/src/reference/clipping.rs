@@ -40,8 +40,12 @@ pub fn clip_polygon_corners(corners: &[Vec3], cell: &DAabb) -> ClippedCorners {
         .map(|corner| corner.as_dvec3())
         .collect();
     for axis in 0..3 {
-        polygon = keep_side(&polygon, axis, cell.min[axis], 1.0);
-        polygon = keep_side(&polygon, axis, cell.max[axis], -1.0);
+        for (position, sign) in [(cell.min[axis], 1.0), (cell.max[axis], -1.0)] {
+            let is_outside = |corner: &DVec3| sign * (corner[axis] - position) < 0.0;
+            if polygon.iter().any(is_outside) {
+                polygon = keep_side(&polygon, axis, position, sign);
+            }
+        }
     }
     polygon
 }
