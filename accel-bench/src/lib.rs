@@ -3,11 +3,13 @@
 //!
 //! A [`scene`] gives triangles and a camera; [`rays`] makes rays from them; the
 //! [`registry`] lists the structures; [`verification`] holds them to brute
-//! force; [`measure`] times and counts; [`report`] prints and writes.
+//! force; [`measure`] times and counts; [`paper`] sets
+//! published figures beside measured ones; [`report`] prints and writes.
 
 pub mod cli;
 pub mod environment;
 pub mod measure;
+pub mod paper;
 pub mod progress;
 pub mod rays;
 pub mod registry;

@@ -28,6 +28,7 @@ fn every_row_agrees_with_brute_force_on_every_scene_and_kind_of_rays() {
             camera: scene.camera(),
             size: SIZE,
             bounds: finder.scene_bounds().unwrap(),
+            ambient_length: RaySource::AMBIENT_LENGTH,
             seed: 3,
         };
         for kind in RayKind::ALL {

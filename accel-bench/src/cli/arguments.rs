@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use accel_core::InvalidPrimitives;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::rays::RayKind;
+use crate::rays::{RayKind, RaySource};
 use crate::scene::camera::Camera;
 use crate::scene::rotation::Rotation;
 
@@ -28,6 +28,8 @@ pub(super) enum Command {
     Verify(VerifyOptions),
     /// Draw a scene, or what its rays cost, as a picture
     Render(RenderOptions),
+    /// Measure what a paper measured, beside its published figures
+    Paper(PaperOptions),
     /// List the embedded scenes, or write them as OBJ files
     Scenes(ScenesOptions),
 }
@@ -148,6 +150,41 @@ pub(super) enum Show {
     Cost,
     /// Time per pixel
     Time,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PaperOptions {
+    /// The paper
+    #[arg(value_enum)]
+    pub paper: Paper,
+    /// Embedded scenes by name, or OBJ files; the paper's cases among the
+    /// embedded ones if left out
+    #[arg(value_name = "SCENE")]
+    pub scenes: Vec<String>,
+    /// Pixels of each viewpoint, across and down
+    #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
+    pub size: (u32, u32),
+    /// Viewpoints: the camera, and as many more around it
+    #[arg(long, default_value_t = 4, value_name = "N")]
+    pub viewpoints: usize,
+    /// How long ambient occlusion rays are, in diagonals of the scene
+    #[arg(long, default_value_t = RaySource::AMBIENT_LENGTH, value_name = "LENGTH")]
+    pub ambient_length: f32,
+    /// Rounds of timing; every round goes around all structures
+    #[arg(long, default_value_t = 9, value_name = "N")]
+    pub rounds: usize,
+    /// Where to write the report: index.html, report.json
+    #[arg(long, default_value = "accel-report", value_name = "DIR")]
+    pub report: PathBuf,
+    #[command(flatten)]
+    pub scene: SceneOptions,
+}
+
+/// A paper whose tables can be measured again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Paper {
+    /// Stich, Friedrich and Dietrich 2009: Table 1, Figure 5 and the memory limit
+    Sbvh,
 }
 
 #[derive(Debug, Args)]

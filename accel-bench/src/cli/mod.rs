@@ -3,6 +3,7 @@
 mod arguments;
 mod compare;
 pub mod interrupt;
+mod paper;
 mod render;
 mod scenes;
 mod verify;
@@ -37,6 +38,7 @@ pub fn run() -> ExitCode {
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Render(options) => render::run(&options),
+        Command::Paper(options) => paper::run(&options),
         Command::Scenes(options) => scenes::run(&options),
     };
     match outcome {
@@ -114,6 +116,7 @@ fn ray_source<'a>(
         camera: scene.camera,
         size,
         bounds: finder.scene_bounds()?,
+        ambient_length: RaySource::AMBIENT_LENGTH,
         seed,
     })
 }

@@ -13,6 +13,7 @@ use std::str::FromStr;
 use accel_core::{Aabb, DynStructure, RaySegment};
 
 use crate::scene::camera::Camera;
+pub use ambient_occlusion::RAYS_PER_HIT;
 
 /// The kinds of rays, named as on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -128,11 +129,23 @@ pub struct RaySource<'a> {
     pub size: (u32, u32),
     /// The box around the scene.
     pub bounds: Aabb,
+    /// How long ambient occlusion rays are, in diagonals of the scene.
+    pub ambient_length: f32,
     /// Seed of everything random.
     pub seed: u64,
 }
 
 impl RaySource<'_> {
+    /// How long ambient occlusion rays are unless another length is asked for,
+    /// in diagonals of the scene.
+    pub const AMBIENT_LENGTH: f32 = 0.15;
+
+    /// For each pixel, row by row from the top, the ambient occlusion rays from
+    /// what it shows; `None` where that is nothing.
+    pub fn ambient_occlusion_by_pixel(&self) -> Vec<Option<[RaySegment; RAYS_PER_HIT]>> {
+        ambient_occlusion::by_pixel(self)
+    }
+
     /// The rays of one kind.
     pub fn rays(&self, kind: RayKind) -> RaySet {
         let (rays, note) = match kind {

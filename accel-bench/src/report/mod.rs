@@ -1,6 +1,7 @@
 //! What a comparison prints and writes.
 
 pub mod csv;
+pub mod document;
 pub mod heat;
 pub mod html;
 pub mod json;

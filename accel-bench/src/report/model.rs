@@ -242,6 +242,24 @@ impl Quantity {
 }
 
 impl Spread {
+    /// The median of `values` and the interval that holds the median of what
+    /// they are drawn from with 95 % confidence, by their order alone; all of
+    /// their range where there are too few for that.
+    pub fn with_confidence(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let median = Self::of(&sorted).median;
+        let Some(last) = sorted.len().checked_sub(1) else {
+            return Self::default();
+        };
+        let rank = rank_outside_confidence(sorted.len());
+        Self {
+            median,
+            min: sorted[rank],
+            max: sorted[last - rank],
+        }
+    }
+
     /// Of `values`; zeroes without any.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
@@ -259,6 +277,22 @@ impl Spread {
     }
 }
 
+/// How many of the smallest and of the largest of `count` values lie outside of
+/// the interval that holds their median with 95 % confidence.
+fn rank_outside_confidence(count: usize) -> usize {
+    // A value is below the median with probability 1/2: the binomial
+    // distribution tells how likely few of them are.
+    let (mut ways, mut below) = (1.0_f64, 0.0);
+    for rank in 0..count / 2 {
+        below += ways / 2.0_f64.powi(count as i32);
+        if below > 0.025 {
+            return rank;
+        }
+        ways *= (count - rank) as f64 / (rank + 1) as f64;
+    }
+    0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -269,5 +303,16 @@ mod tests {
         let even = Spread::of(&[4.0, 1.0, 2.0, 3.0]);
         assert_eq!((even.median, even.min, even.max), (2.5, 1.0, 4.0));
         assert_eq!(Spread::of(&[]), Spread::default());
+        assert_eq!(Spread::with_confidence(&[]), Spread::default());
+    }
+
+    #[test]
+    fn the_confidence_interval_drops_as_many_values_as_tables_say() {
+        // Of 9 values the second and the eighth hold the median with 96 %.
+        let ranks = [5, 6, 9, 12, 20, 100].map(rank_outside_confidence);
+        assert_eq!(ranks, [0, 0, 1, 2, 5, 39]);
+        let nine: Vec<f64> = (1..=9).map(f64::from).collect();
+        let spread = Spread::with_confidence(&nine);
+        assert_eq!((spread.min, spread.median, spread.max), (2.0, 5.0, 8.0));
     }
 }

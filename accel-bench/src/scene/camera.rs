@@ -3,8 +3,9 @@
 mod framing;
 mod parse;
 
+use accel_core::Aabb;
 use accel_core::RaySegment;
-use accel_core::glam::{DVec3, Vec3};
+use accel_core::glam::{DQuat, DVec3, Vec3};
 
 use super::Mesh;
 
@@ -112,6 +113,26 @@ impl Camera {
     /// 0,0 is its upper left corner and 1,1 its lower right one.
     pub fn ray(&self, x: u32, y: u32, width: u32, height: u32, jitter: [f32; 2]) -> RaySegment {
         Frame::new(self, width, height).ray(x, y, jitter)
+    }
+
+    /// This camera and others, `count` in all, at equal angles about its up: from
+    /// inside `bounds` looking around, from outside looking in from all sides.
+    pub fn viewpoints(&self, bounds: &Aabb, count: usize) -> Vec<Self> {
+        let is_inside = bounds.contains(&Aabb::new(self.eye, self.eye));
+        let axis = self.up.as_dvec3().normalize_or(DVec3::Y);
+        let view = self.look_at.as_dvec3() - self.eye.as_dvec3();
+        let turned = |i: usize| {
+            let angle = std::f64::consts::TAU * i as f64 / count as f64;
+            let view = DQuat::from_axis_angle(axis, angle) * view;
+            let mut camera = *self;
+            if is_inside {
+                camera.look_at = (self.eye.as_dvec3() + view).as_vec3();
+            } else {
+                camera.eye = (self.look_at.as_dvec3() - view).as_vec3();
+            }
+            camera
+        };
+        (0..count).map(turned).collect()
     }
 
     /// A camera that sees `mesh`: from outside, unless few but large triangles

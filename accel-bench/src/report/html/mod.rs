@@ -12,6 +12,9 @@ use super::model::{Cell, Pictures, Report};
 use charts::Chart;
 use pictures::SceneMaps;
 
+/// How pages look, in light and in dark.
+pub(super) const STYLE: &str = include_str!("style.css");
+
 /// Why there is no HTML.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -74,6 +77,7 @@ pub fn write_html(
         .map(|row| row.verified.rays)
         .sum();
     let page = environment.get_template("report")?.render(context! {
+        style => STYLE,
         environment => report.environment,
         scenes => scenes,
         structures => structures,

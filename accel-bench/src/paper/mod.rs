@@ -1,0 +1,3 @@
+//! What papers measured, measured again, beside their published figures.
+
+pub mod sbvh;

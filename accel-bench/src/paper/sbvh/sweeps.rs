@@ -1,0 +1,131 @@
+//! Figure 5, and the hard memory limit of section 6.1.
+
+use accel_core::{
+    AccelerationStructure, BuildError, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
+};
+use accel_sbvh::{ReferenceLimit, SbvhBuilder, Spending, SplitStatistics};
+
+use super::methods;
+use crate::report::document::{DocumentTable, Figure, LineChart, Series, TableRow};
+
+/// The values of alpha in Figure 5, and 0.
+const ALPHAS: [f64; 10] = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0];
+
+/// References per triangle.
+const LIMITS: [f64; 6] = [1.0, 1.05, 1.1, 1.25, 1.5, 2.0];
+
+const SPENDINGS: [(Spending, &str); 3] = [
+    (Spending::ByBenefit, "by benefit"),
+    (Spending::BreadthFirst, "breadth-first"),
+    (Spending::Shares, "in shares"),
+];
+
+fn built(
+    builder: &SbvhBuilder,
+    triangles: &[Triangle],
+) -> Result<(f64, SplitStatistics), BuildError> {
+    let (tree, splits) = builder.build_with(triangles, &())?;
+    let statistics = tree.tree_statistics(&SurfaceAreaHeuristic::default());
+    Ok((statistics.sah_cost, splits))
+}
+
+/// SAH cost and duplication against alpha: a table and a plot.
+pub(super) fn alpha(
+    triangles: &[Triangle],
+    invalid: InvalidPrimitives,
+) -> Result<(DocumentTable, LineChart), BuildError> {
+    let results = ALPHAS.map(|alpha| {
+        let builder = SbvhBuilder {
+            alpha,
+            ..methods::sbvh(invalid)
+        };
+        Ok((alpha, built(&builder, triangles)?))
+    });
+    let results: Vec<(f64, (f64, SplitStatistics))> =
+        results.into_iter().collect::<Result<_, _>>()?;
+    let rows = results.iter().map(|(alpha, (cost, splits))| TableRow {
+        is_published: false,
+        figures: vec![
+            Figure::Text(label(*alpha)),
+            Figure::number(*cost, 2, ""),
+            Figure::number(splits.reference_percentage(), 1, " %"),
+            Figure::count(splits.spatial_split_attempts),
+            Figure::count(splits.spatial_splits),
+        ],
+    });
+    let table = DocumentTable {
+        caption: "Figure 5: the influence of alpha, under the default limit of 400 % references"
+            .to_owned(),
+        headings: vec![
+            "alpha",
+            "SAH\ncost",
+            "references",
+            "attempts",
+            "spatial\nsplits",
+        ],
+        rows: rows.collect(),
+    };
+    let series = |name: &str, value: fn(&(f64, SplitStatistics)) -> f64| Series {
+        name: name.to_owned(),
+        values: results.iter().map(|(_, result)| value(result)).collect(),
+    };
+    let chart = LineChart {
+        title: "SAH cost and references against alpha (Figure 5)".to_owned(),
+        label: "alpha".to_owned(),
+        labels: ALPHAS.map(label).to_vec(),
+        series: vec![
+            series("SAH cost", |result| result.0),
+            series("references in percent", |result| {
+                result.1.reference_percentage()
+            }),
+        ],
+    };
+    Ok((table, chart))
+}
+
+fn label(alpha: f64) -> String {
+    if alpha == 0.0 || alpha == 1.0 {
+        format!("{alpha}")
+    } else {
+        format!("{alpha:e}")
+    }
+}
+
+/// SAH cost and references under hard limits, for each way to spend them.
+pub(super) fn limits(
+    triangles: &[Triangle],
+    invalid: InvalidPrimitives,
+) -> Result<DocumentTable, BuildError> {
+    let mut rows = Vec::new();
+    for factor in LIMITS {
+        let mut figures = vec![Figure::number(100.0 * factor, 0, " %")];
+        for (spending, _) in SPENDINGS {
+            let builder = SbvhBuilder {
+                limit: ReferenceLimit::Factor(factor),
+                spending,
+                ..methods::sbvh(invalid)
+            };
+            let (cost, splits) = built(&builder, triangles)?;
+            figures.push(Figure::number(cost, 2, ""));
+            figures.push(Figure::number(splits.reference_percentage(), 2, " %"));
+        }
+        rows.push(TableRow {
+            is_published: false,
+            figures,
+        });
+    }
+    let ways = SPENDINGS.map(|(_, name)| name).join(", ");
+    Ok(DocumentTable {
+        caption: format!("Hard limits on references (section 6.1), spent {ways}"),
+        headings: vec![
+            "limit",
+            "by benefit\nSAH cost",
+            "references",
+            "breadth-first\nSAH cost",
+            "references",
+            "in shares\nSAH cost",
+            "references",
+        ],
+        rows,
+    })
+}
