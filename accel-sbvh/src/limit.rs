@@ -21,10 +21,10 @@ pub enum ReferenceLimit {
 }
 
 impl Default for ReferenceLimit {
-    /// Four a primitive: more than scenes ask for, and a bound on what
-    /// adversarial ones can.
+    /// Two a primitive: spent by benefit, more gain hardly anything, and it bounds
+    /// what adversarial scenes can ask for.
     fn default() -> Self {
-        Self::Factor(4.0)
+        Self::Factor(2.0)
     }
 }
 

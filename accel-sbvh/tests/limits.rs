@@ -306,7 +306,7 @@ fn what_everything_straddles_ends_within_the_limit() {
             };
             let (bvh, statistics) = builder.build_with(&triangles, &()).unwrap();
             assert!(
-                statistics.references <= 4 * triangles.len(),
+                statistics.references <= 2 * triangles.len(),
                 "{statistics:?}"
             );
             bvh.validate().unwrap();

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use accel_core::InvalidPrimitives;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::rays::{RayKind, RaySource};
+use crate::paper::sbvh;
+use crate::rays::RayKind;
 use crate::scene::camera::Camera;
 use crate::scene::rotation::Rotation;
 
@@ -168,7 +169,7 @@ pub(super) struct PaperOptions {
     #[arg(long, default_value_t = 4, value_name = "N")]
     pub viewpoints: usize,
     /// How long ambient occlusion rays are, in diagonals of the scene
-    #[arg(long, default_value_t = RaySource::AMBIENT_LENGTH, value_name = "LENGTH")]
+    #[arg(long, default_value_t = sbvh::AMBIENT_LENGTH, value_name = "LENGTH")]
     pub ambient_length: f32,
     /// Rounds of timing; every round goes around all structures
     #[arg(long, default_value_t = 9, value_name = "N")]

@@ -35,7 +35,7 @@ pub(super) static ROWS: &[Row] = &[
         name: "sbvh",
         is_headline: true,
         about: "SBVH: object and spatial splits, 52/4-byte nodes",
-        settings: "alpha 1e-5, 256 bins, at most 4 references a triangle, SahUpTo(8), C_t = C_i = 1",
+        settings: "alpha 1e-5, 256 bins, at most 2 references a triangle, SahUpTo(8), C_t = C_i = 1",
         heuristic: SurfaceAreaHeuristic::default,
         build: |triangles, invalid, observer| {
             build_sbvh(SbvhBuilder::default(), triangles, invalid, observer)

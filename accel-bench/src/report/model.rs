@@ -286,7 +286,7 @@ fn rank_outside_confidence(count: usize) -> usize {
     for rank in 0..count / 2 {
         below += ways / 2.0_f64.powi(count as i32);
         if below > 0.025 {
-            return rank;
+            return rank.saturating_sub(1);
         }
         ways *= (count - rank) as f64 / (rank + 1) as f64;
     }
