@@ -32,7 +32,7 @@ impl Default for EarlySplitClipping {
     fn default() -> Self {
         Self {
             threshold: Threshold::Factor(1.25),
-            limit: ReferenceLimit::default(),
+            limit: super::DEFAULT_LIMIT,
             remove_duplicates: false,
             bvh: BvhBuilder {
                 object_split: accel_bvh::ObjectSplit::FullSweep,

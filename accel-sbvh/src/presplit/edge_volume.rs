@@ -35,7 +35,7 @@ impl Default for EdgeVolumeHeuristic {
     fn default() -> Self {
         Self {
             threshold: Threshold::Factor(1.25),
-            limit: ReferenceLimit::default(),
+            limit: super::DEFAULT_LIMIT,
             remove_duplicates: true,
             bvh: BvhBuilder {
                 object_split: accel_bvh::ObjectSplit::FullSweep,

@@ -22,6 +22,10 @@ pub use early_split_clipping::EarlySplitClipping;
 pub use edge_volume::EdgeVolumeHeuristic;
 pub use threshold::Threshold;
 
+/// More than any threshold worth having makes: the count is asked for, not left
+/// to a heuristic.
+const DEFAULT_LIMIT: ReferenceLimit = ReferenceLimit::Factor(4.0);
+
 /// What a presplit made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PresplitStatistics {
