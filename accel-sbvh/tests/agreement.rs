@@ -13,8 +13,8 @@ use proptest::prelude::*;
 
 /// Enough for a setting that shares its search with one that is checked in full.
 const PART: Effort = Effort {
-    seeds: 8,
-    triangles: 500,
+    seeds: 4,
+    triangles: 400,
     rays: 150,
     full_size_rays: 0,
 };
@@ -52,13 +52,13 @@ fn the_paper_s_settings_agree_with_brute_force_on_every_family() {
         ..base()
     }];
     let effort = Effort {
-        seeds: 6,
-        triangles: 1000,
+        seeds: 4,
+        triangles: 800,
         ..Effort::default()
     };
     let checked = check(&effort, &builders);
     assert!(checked.families >= 40, "{checked:?}");
-    assert!(checked.hits > 50_000, "{checked:?}");
+    assert!(checked.hits > 20_000, "{checked:?}");
 }
 
 #[test]

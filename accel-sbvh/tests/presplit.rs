@@ -9,8 +9,8 @@ use accel_sbvh::{
 };
 
 const EFFORT: Effort = Effort {
-    seeds: 6,
-    triangles: 600,
+    seeds: 3,
+    triangles: 500,
     rays: 150,
     full_size_rays: 0,
 };
