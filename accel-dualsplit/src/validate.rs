@@ -88,3 +88,65 @@ fn check_first_child(words: &[u32], node: &Node) -> Result<(), WordsError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use accel_core::testing::{families, rays};
+    use accel_core::{AccelerationStructure, TraversalCounters};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::*;
+    use crate::{BvhBuilder, DualSplitConverter};
+
+    /// Words that pass the check are those of some tree: traced, they give an
+    /// answer after at most one visit of each node.
+    #[test]
+    fn corrupted_words_are_refused_or_traced_in_bounded_time() {
+        let scene = families::find("soup-mixed-sizes").unwrap().scene(3, 60);
+        let bvh = BvhBuilder::default().build(&scene).unwrap();
+        let mut tree = DualSplitConverter::default().convert(&bvh).unwrap();
+        let sound = tree.words.clone();
+        let leaves = leaf_numbers(&tree);
+        let is_leaf_number = |leaf| leaves.contains(&leaf);
+        assert_eq!(check_words(&sound, is_leaf_number), Ok(tree.depth));
+        let rays = rays::mixed(&scene, 4, 64);
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        let (mut refused, mut traced) = (0, 0);
+        for round in 0..100_000 {
+            tree.words.clone_from(&sound);
+            for _ in 0..1 + round % 3 {
+                let word = random.random_range(0..sound.len());
+                if random.random_range(0..4) == 0 {
+                    tree.words[word] = random.random();
+                } else {
+                    tree.words[word] ^= 1 << random.random_range(0..32);
+                }
+            }
+            if check_words(&tree.words, is_leaf_number).is_err() {
+                refused += 1;
+                continue;
+            }
+            traced += 1;
+            let mut counters = TraversalCounters::default();
+            tree.closest_hit_with(&rays[round % rays.len()], &mut counters);
+            assert!(counters.nodes.max as usize <= sound.len());
+        }
+        assert!(refused > 10_000 && traced > 10_000, "{refused} {traced}");
+    }
+
+    fn leaf_numbers<P: Primitive>(tree: &DualSplitTree<P>) -> HashSet<u32> {
+        let mut leaves = HashSet::new();
+        let mut pending = vec![0];
+        while let Some(position) = pending.pop() {
+            let node = tree.node(position);
+            if node.header.is_leaf() {
+                leaves.insert(node.target as u32);
+            }
+            pending.extend(node.children());
+        }
+        leaves
+    }
+}

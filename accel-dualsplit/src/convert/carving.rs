@@ -223,3 +223,65 @@ impl Carving {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(
+        partitioning: Partitioning,
+        region: Aabb,
+        target: Aabb,
+        references: u32,
+    ) -> CarvingPlan {
+        let costs = CarvingCosts::default();
+        CarvingPlan::cheapest(
+            &costs,
+            partitioning,
+            region,
+            target,
+            references,
+            f64::INFINITY,
+        )
+        .expect("some plan is finite")
+    }
+
+    #[test]
+    fn costs_are_those_of_equation_1() {
+        // Half areas: 3 of the cube, 2 of its half.
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        let half = Aabb::new([0.0; 3], [1.0, 1.0, 0.5]);
+        let carved = plan(Partitioning::Identical, cube, half, 4);
+        let planes = CarvingPlanes::Single(Axis::Z);
+        let carvings: Vec<_> = carved.carvings().map(|carving| carving.planes).collect();
+        assert_eq!((carvings, carved.region), (vec![planes], half));
+        assert!((carved.cost - (0.3 * 3.0 + 4.0 * 2.0)).abs() < 1e-12);
+        let whole = plan(Partitioning::Identical, cube, cube, 4);
+        assert!(whole.is_empty() && whole.cost == 4.0 * 3.0);
+    }
+
+    #[test]
+    fn similar_carves_only_where_it_pays() {
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        // Saves 0.2 of 3 a reference and costs 0.9: pays from five references on.
+        let slightly_smaller = Aabb::new([0.0; 3], [1.0, 1.0, 0.9]);
+        for (references, is_empty) in [(4, true), (5, false)] {
+            let plan = plan(Partitioning::Similar, cube, slightly_smaller, references);
+            assert_eq!(plan.is_empty(), is_empty, "{references}");
+        }
+    }
+
+    #[test]
+    fn two_planes_on_two_axes_take_one_node_and_five_planes_three() {
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        let corner = Aabb::new([0.1, 0.0, 0.0], [1.0, 0.9, 1.0]);
+        let plane = |axis, is_high| BoxPlane { axis, is_high };
+        let dual = CarvingPlanes::Dual(plane(Axis::X, false), plane(Axis::Y, true));
+        let carved = plan(Partitioning::Identical, cube, corner, 1);
+        let carvings: Vec<_> = carved.carvings().map(|carving| carving.planes).collect();
+        assert_eq!((carvings, carved.region), (vec![dual], corner));
+        let inside = Aabb::new([0.1, 0.1, 0.1], [0.9, 0.9, 1.0]);
+        let carved = plan(Partitioning::Identical, cube, inside, 1);
+        assert_eq!((carved.carvings().count(), carved.region), (3, inside));
+    }
+}

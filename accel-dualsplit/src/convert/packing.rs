@@ -222,3 +222,34 @@ fn move_target(words: &mut [u32], position: usize, distance: usize) -> Result<()
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_offset_beyond_26_bits_is_a_typed_error_and_the_largest_is_none() {
+        let node = |offset| write_node(&mut [0; 3], 0, Header::Leaf, offset, [0.0; 2]);
+        assert_eq!(node((1 << 26) - 1), Ok(()));
+        let error = BuildError::OffsetOverflow {
+            needed: 1 << 26,
+            limit: 67_108_863,
+        };
+        assert_eq!(node(1 << 26), Err(error));
+    }
+
+    #[test]
+    fn moving_a_target_checks_its_offset_and_leaves_leaves_alone() {
+        let splitting = Header::Splitting {
+            axis: accel_core::geometry::Axis::X,
+            first_child_words: 1,
+        };
+        let mut words = [splitting.encode(3), 0, 0];
+        move_target(&mut words, 0, 7).unwrap();
+        assert_eq!(words[0], splitting.encode(10));
+        assert!(move_target(&mut words, 0, MAX_OFFSET).is_err());
+        let mut leaf = [Header::Leaf.encode(5)];
+        move_target(&mut leaf, 0, MAX_OFFSET).unwrap();
+        assert_eq!(leaf[0], Header::Leaf.encode(5));
+    }
+}
