@@ -53,6 +53,7 @@ mod layout;
 mod leaf_rule;
 mod node;
 mod node_rules;
+mod reading;
 mod refit;
 mod sweep;
 mod traversal;
@@ -64,6 +65,7 @@ pub use layout::ChildBounds;
 pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
 pub use node_rules::NodeRules;
+pub use reading::{BvhNode, NodeHandle};
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

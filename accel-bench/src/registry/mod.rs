@@ -1,6 +1,7 @@
 //! The table of structures and settings: adding a structure is adding a row.
 
 mod bvh;
+mod dualsplit;
 mod sbvh;
 
 use accel_core::layout::TriangleBlocks;
@@ -56,7 +57,7 @@ static BRUTE_FORCE: &[Row] = &[Row {
 }];
 
 /// The rows of every crate, in the order of tables.
-static ROWS: &[&[Row]] = &[bvh::ROWS, sbvh::ROWS, BRUTE_FORCE];
+static ROWS: &[&[Row]] = &[bvh::ROWS, sbvh::ROWS, dualsplit::ROWS, BRUTE_FORCE];
 
 /// The brute force that every row must agree with.
 ///

@@ -44,10 +44,16 @@ impl<N: Copy> TraversalStack<N> {
     /// entered later are dropped. Strictly later: a hit there could still tie.
     #[inline]
     pub fn pop_within(&mut self, t_max: f32) -> Option<N> {
+        self.pop_entry_within(t_max).map(|entry| entry.node)
+    }
+
+    /// As [`pop_within`](Self::pop_within), with where the ray enters the node.
+    #[inline]
+    pub fn pop_entry_within(&mut self, t_max: f32) -> Option<StackEntry<N>> {
         loop {
             let entry = self.entries.pop()?;
             if entry.near <= t_max {
-                return Some(entry.node);
+                return Some(entry);
             }
         }
     }

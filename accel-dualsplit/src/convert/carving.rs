@@ -1,0 +1,287 @@
+//! The cheapest nested carving nodes (Lin 2019, section 4.2, equation 1).
+
+use accel_core::Aabb;
+use accel_core::geometry::Axis;
+
+use super::{CarvingCosts, Partitioning};
+use crate::codec::{BoxPlane, CarvingPlanes};
+
+/// The most carving nodes between two splitting nodes: three on one axis each
+/// carve any box.
+const MAX_LEVELS: usize = 3;
+
+/// A carving node to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Carving {
+    pub planes: CarvingPlanes,
+    pub positions: [f32; 2],
+}
+
+/// Nested carving nodes, and what is left when they have carved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CarvingPlan {
+    levels: [Option<Carving>; MAX_LEVELS],
+    pub region: Aabb,
+    /// Equation 1, times the area of the parent: areas times costs.
+    pub cost: f64,
+}
+
+impl CarvingPlan {
+    /// No carving nodes: all of `region` is left.
+    pub(super) fn uncarved(region: Aabb) -> Self {
+        Self {
+            levels: [None; MAX_LEVELS],
+            region,
+            cost: 0.0,
+        }
+    }
+
+    /// The nodes, outermost first.
+    pub(super) fn carvings(&self) -> impl Iterator<Item = Carving> + '_ {
+        self.levels.iter().flatten().copied()
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.levels[0].is_none()
+    }
+
+    /// The cheapest way to carve `region` towards `target`, the box of
+    /// `references` references; `None` where none costs less than `limit`.
+    pub(super) fn cheapest(
+        costs: &CarvingCosts,
+        partitioning: Partitioning,
+        region: Aabb,
+        target: Aabb,
+        references: u32,
+        limit: f64,
+    ) -> Option<Self> {
+        let uncarved = Self::uncarved(region);
+        let loose = LoosePlanes::between(&region, &target);
+        let area = region.half_area();
+        let target = region.intersection(&target);
+        let references = f64::from(references);
+        let mut search = Search {
+            costs,
+            partitioning,
+            target,
+            references,
+            least_tests: references * target.half_area(),
+            limit,
+            best: None,
+        };
+        search.visit(&uncarved, area, loose, 0);
+        search.best
+    }
+}
+
+/// The planes of a region that lie outside a target: a bit each, by
+/// [`BoxPlane::index`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct LoosePlanes(u8);
+
+impl LoosePlanes {
+    fn between(region: &Aabb, target: &Aabb) -> Self {
+        let mut bits = 0;
+        for axis in Axis::ALL {
+            let low = axis.of(target.min) > axis.of(region.min);
+            let high = axis.of(target.max) < axis.of(region.max);
+            bits |= (u8::from(low) | u8::from(high) << 1) << (2 * axis.index());
+        }
+        Self(bits)
+    }
+
+    fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    fn holds(self, plane: BoxPlane) -> bool {
+        self.0 & 1 << plane.index() != 0
+    }
+
+    /// The fewest carving nodes that carve them all.
+    fn fewest_levels(self) -> usize {
+        let axes = (0..3).filter(|axis| self.0 >> (2 * axis) & 0b11 != 0);
+        axes.count().min(self.0.count_ones().div_ceil(2) as usize)
+    }
+
+    fn without(self, planes: CarvingPlanes) -> Self {
+        let bit = |plane: BoxPlane| 1 << plane.index();
+        let carved = match planes {
+            CarvingPlanes::Single(axis) => 0b11 << (2 * axis.index()),
+            CarvingPlanes::Dual(a, b) => bit(a) | bit(b),
+        };
+        Self(self.0 & !carved)
+    }
+
+    /// Every carving node that carves some of them, but those that another one
+    /// beats whatever comes after: a plane on one of two axes and nothing on the
+    /// other is no cheaper than both planes of that axis, unless `lone_dual`.
+    fn carving_nodes(self, lone_dual: bool) -> impl Iterator<Item = CarvingPlanes> {
+        let single = Axis::ALL
+            .into_iter()
+            .filter(move |axis| self.0 >> (2 * axis.index()) & 0b11 != 0)
+            .map(CarvingPlanes::Single);
+        let pairs = [[Axis::X, Axis::Y], [Axis::X, Axis::Z], [Axis::Y, Axis::Z]];
+        let dual = pairs.into_iter().flat_map(move |[first, second]| {
+            (0..4).filter_map(move |corner: u8| {
+                let plane = |axis, is_high| BoxPlane { axis, is_high };
+                let first = plane(first, corner & 2 != 0);
+                let second = plane(second, corner & 1 != 0);
+                let (a, b) = (self.holds(first), self.holds(second));
+                let carves = (a && b) || (lone_dual && (a || b));
+                carves.then_some(CarvingPlanes::Dual(first, second))
+            })
+        });
+        single.chain(dual)
+    }
+}
+
+/// Walks all configurations of up to three nested carving nodes, leaving out
+/// those that can't cost less than the best.
+struct Search<'a> {
+    costs: &'a CarvingCosts,
+    partitioning: Partitioning,
+    /// Inside the region.
+    target: Aabb,
+    references: f64,
+    /// What testing the references costs at least: in the target itself.
+    least_tests: f64,
+    /// What a plan must cost less than.
+    limit: f64,
+    best: Option<CarvingPlan>,
+}
+
+impl Search<'_> {
+    /// `plan` has carved down to its region, of half area `area`, for its cost,
+    /// and left `loose`.
+    fn visit(&mut self, plan: &CarvingPlan, area: f64, loose: LoosePlanes, level: usize) {
+        let is_similar = self.partitioning == Partitioning::Similar;
+        if loose.is_empty() || is_similar {
+            let cost = plan.cost + area * self.references;
+            if cost < self.limit {
+                self.limit = cost;
+                self.best = Some(CarvingPlan { cost, ..*plan });
+            }
+        }
+        let levels_left = MAX_LEVELS - level;
+        if loose.is_empty() || levels_left == 0 {
+            return;
+        }
+        let lone_dual = self.costs.dual_axis < self.costs.single_axis;
+        for planes in loose.carving_nodes(lone_dual) {
+            let cost = plan.cost + area * self.sigma(planes);
+            if cost + self.least_tests >= self.limit {
+                continue;
+            }
+            let still_loose = loose.without(planes);
+            if !is_similar && still_loose.fewest_levels() >= levels_left {
+                continue;
+            }
+            let carving = Carving::towards(&self.target, planes);
+            let mut carved = CarvingPlan {
+                region: carving.carve(plan.region),
+                cost,
+                ..*plan
+            };
+            carved.levels[level] = Some(carving);
+            let area = carved.region.half_area();
+            self.visit(&carved, area, still_loose, level + 1);
+        }
+    }
+
+    /// Sigma of equation 1.
+    fn sigma(&self, planes: CarvingPlanes) -> f64 {
+        match planes {
+            CarvingPlanes::Single(_) => self.costs.single_axis,
+            CarvingPlanes::Dual(..) => self.costs.dual_axis,
+        }
+    }
+}
+
+impl Carving {
+    /// The node that carves to `target` with these planes.
+    fn towards(target: &Aabb, planes: CarvingPlanes) -> Self {
+        let at = |plane: BoxPlane| {
+            plane.axis.of(if plane.is_high {
+                target.max
+            } else {
+                target.min
+            })
+        };
+        let positions = match planes {
+            CarvingPlanes::Single(axis) => [axis.of(target.max), axis.of(target.min)],
+            CarvingPlanes::Dual(a, b) => [at(a), at(b)],
+        };
+        Self { planes, positions }
+    }
+
+    fn carve(&self, region: Aabb) -> Aabb {
+        let [first, second] = self.positions;
+        match self.planes {
+            CarvingPlanes::Single(axis) => region.with_range(axis, second, first),
+            CarvingPlanes::Dual(a, b) => a.carve(b.carve(region, second), first),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(
+        partitioning: Partitioning,
+        region: Aabb,
+        target: Aabb,
+        references: u32,
+    ) -> CarvingPlan {
+        let costs = CarvingCosts::default();
+        CarvingPlan::cheapest(
+            &costs,
+            partitioning,
+            region,
+            target,
+            references,
+            f64::INFINITY,
+        )
+        .expect("some plan is finite")
+    }
+
+    #[test]
+    fn costs_are_those_of_equation_1() {
+        // Half areas: 3 of the cube, 2 of its half.
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        let half = Aabb::new([0.0; 3], [1.0, 1.0, 0.5]);
+        let carved = plan(Partitioning::Identical, cube, half, 4);
+        let planes = CarvingPlanes::Single(Axis::Z);
+        let carvings: Vec<_> = carved.carvings().map(|carving| carving.planes).collect();
+        assert_eq!((carvings, carved.region), (vec![planes], half));
+        assert!((carved.cost - (0.3 * 3.0 + 4.0 * 2.0)).abs() < 1e-12);
+        let whole = plan(Partitioning::Identical, cube, cube, 4);
+        assert!(whole.is_empty() && whole.cost == 4.0 * 3.0);
+    }
+
+    #[test]
+    fn similar_carves_only_where_it_pays() {
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        // Saves 0.2 of 3 a reference and costs 0.9: pays from five references on.
+        let slightly_smaller = Aabb::new([0.0; 3], [1.0, 1.0, 0.9]);
+        for (references, is_empty) in [(4, true), (5, false)] {
+            let plan = plan(Partitioning::Similar, cube, slightly_smaller, references);
+            assert_eq!(plan.is_empty(), is_empty, "{references}");
+        }
+    }
+
+    #[test]
+    fn two_planes_on_two_axes_take_one_node_and_five_planes_three() {
+        let cube = Aabb::new([0.0; 3], [1.0; 3]);
+        let corner = Aabb::new([0.1, 0.0, 0.0], [1.0, 0.9, 1.0]);
+        let plane = |axis, is_high| BoxPlane { axis, is_high };
+        let dual = CarvingPlanes::Dual(plane(Axis::X, false), plane(Axis::Y, true));
+        let carved = plan(Partitioning::Identical, cube, corner, 1);
+        let carvings: Vec<_> = carved.carvings().map(|carving| carving.planes).collect();
+        assert_eq!((carvings, carved.region), (vec![dual], corner));
+        let inside = Aabb::new([0.1, 0.1, 0.1], [0.9, 0.9, 1.0]);
+        let carved = plan(Partitioning::Identical, cube, inside, 1);
+        assert_eq!((carved.carvings().count(), carved.region), (3, inside));
+    }
+}

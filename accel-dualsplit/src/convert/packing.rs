@@ -1,0 +1,255 @@
+//! From plans to words. Siblings are adjacent, everything else is in depth-first
+//! order (Lin 2019, section 4).
+//!
+//! Offsets are relative, so the words below a node do not depend on where they
+//! will lie: large subtrees are converted in parallel and appended. What is large
+//! depends on the tree alone, so the words are the same for any number of
+//! threads.
+
+use accel_bvh::{Bvh, BvhNode, NodeHandle};
+use accel_core::build::join;
+use accel_core::layout::LeafStorage;
+use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
+
+use super::DualSplitConverter;
+use super::carving::{Carving, CarvingPlan};
+use super::sizes::{SizedNode, SubtreeSizes};
+use super::splitting::SplittingPlan;
+use crate::codec::{Header, LEAF_WORDS, MAX_OFFSET, NODE_WORDS};
+
+/// Subtrees of fewer references than this are converted by one thread.
+const FORK_SIZE: u32 = 4096;
+
+/// Nothing forks further below the root than this.
+const FORK_DEPTH: u32 = 24;
+
+/// Bytes that a conversion holds at most, besides the BVH: a splitting node and
+/// three carving nodes for each inner node.
+pub(super) fn most_bytes<P: Primitive>(bvh: &Bvh<P>) -> usize {
+    let storage = bvh.stored().leaves().bytes();
+    let nodes = bvh.node_bytes() / accel_bvh::INNER_NODE_BYTES + 1;
+    let words = nodes * (NODE_WORDS * 7 + LEAF_WORDS);
+    words * size_of::<u32>() + storage.references + storage.primitives
+}
+
+pub(super) struct Packing<'a, P: Primitive> {
+    converter: &'a DualSplitConverter,
+    bvh: &'a Bvh<P>,
+    sizes: &'a SubtreeSizes,
+}
+
+/// A child of a splitting node whose first word is reserved.
+struct Reserved {
+    position: usize,
+    node: SizedNode,
+    plan: CarvingPlan,
+    depth: u32,
+}
+
+impl<'a, P: Primitive> Packing<'a, P> {
+    pub(super) fn new(
+        converter: &'a DualSplitConverter,
+        bvh: &'a Bvh<P>,
+        sizes: &'a SubtreeSizes,
+    ) -> Self {
+        Self {
+            converter,
+            bvh,
+            sizes,
+        }
+    }
+
+    pub(super) fn pack(&self, root: NodeHandle, bounds: Aabb) -> Result<Vec<u32>, BuildError> {
+        let node = self.sizes.root(self.bvh, root);
+        let mut words = Vec::new();
+        let plan = CarvingPlan::uncarved(bounds);
+        let position = reserve(&mut words, first_words(node, &plan));
+        let root = Reserved {
+            position,
+            node,
+            plan,
+            depth: 0,
+        };
+        self.pack_below(root, &mut words)?;
+        Ok(words)
+    }
+
+    /// Writes a node and everything below it, on one thread unless it is large.
+    fn pack_below(&self, root: Reserved, words: &mut Vec<u32>) -> Result<(), BuildError> {
+        let mut pending = vec![root];
+        while let Some(reserved) = pending.pop() {
+            let forks = reserved.node.references >= FORK_SIZE && reserved.depth < FORK_DEPTH;
+            let Some([first, second]) = self.write(&reserved, words)? else {
+                continue;
+            };
+            if forks {
+                self.fork(first, second, words)?;
+            } else {
+                pending.extend([second, first]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes both children and everything below them, in parallel.
+    fn fork(
+        &self,
+        first: Reserved,
+        mut second: Reserved,
+        words: &mut Vec<u32>,
+    ) -> Result<(), BuildError> {
+        // The second starts behind a copy of its own place, which keeps its
+        // offsets right until the words of the first come between.
+        let own = first_words(second.node, &second.plan);
+        let mut below_second = vec![0; own];
+        let position = std::mem::take(&mut second.position);
+        let (first_packed, second_packed) = join(
+            || self.pack_below(first, words),
+            || self.pack_below(second, &mut below_second),
+        );
+        first_packed.and(second_packed)?;
+        let distance = words.len() - (position + own);
+        words[position..position + own].copy_from_slice(&below_second[..own]);
+        words.extend_from_slice(&below_second[own..]);
+        move_target(words, position, distance)
+    }
+
+    /// Writes the reserved node, the carving nodes under it and the splitting
+    /// node under these; reserves that node's children.
+    fn write(
+        &self,
+        reserved: &Reserved,
+        words: &mut Vec<u32>,
+    ) -> Result<Option<[Reserved; 2]>, BuildError> {
+        let Reserved {
+            mut position,
+            node,
+            ref plan,
+            depth,
+        } = *reserved;
+        let source = self.bvh.node(node.handle);
+        let mut carvings = plan.carvings().peekable();
+        while let Some(Carving { planes, positions }) = carvings.next() {
+            let is_last = carvings.peek().is_none();
+            let (header, offset) = match source {
+                BvhNode::Leaf(leaf) if is_last => {
+                    let is_leaf = true;
+                    (Header::Carving { planes, is_leaf }, leaf as usize)
+                }
+                _ => {
+                    let is_leaf = false;
+                    (Header::Carving { planes, is_leaf }, words.len() - position)
+                }
+            };
+            write_node(words, position, header, offset, positions)?;
+            if header.is_leaf() {
+                return Ok(None);
+            }
+            position = reserve(words, NODE_WORDS);
+        }
+        match source {
+            BvhNode::Leaf(leaf) => {
+                words[position] = encode(Header::Leaf, leaf as usize)?;
+                Ok(None)
+            }
+            BvhNode::Inner { bounds, children } => {
+                let children = self.sizes.children(self.bvh, node, children);
+                let split = SplittingPlan::cheapest(self.converter, plan.region, bounds, children);
+                let [(first, first_plan), (second, second_plan)] = split.children;
+                let header = Header::Splitting {
+                    axis: split.axis,
+                    first_child_words: first_words(first, &first_plan),
+                };
+                let offset = words.len() - position;
+                write_node(words, position, header, offset, split.positions)?;
+                let mut child = |node, plan| Reserved {
+                    position: reserve(words, first_words(node, &plan)),
+                    node,
+                    plan,
+                    depth: depth + 1,
+                };
+                Ok(Some([child(first, first_plan), child(second, second_plan)]))
+            }
+        }
+    }
+}
+
+/// Words of the first node that stands for a node of the BVH.
+fn first_words(node: SizedNode, plan: &CarvingPlan) -> usize {
+    if node.handle.is_leaf() && plan.is_empty() {
+        LEAF_WORDS
+    } else {
+        NODE_WORDS
+    }
+}
+
+fn reserve(words: &mut Vec<u32>, count: usize) -> usize {
+    let position = words.len();
+    words.resize(position + count, 0);
+    position
+}
+
+fn write_node(
+    words: &mut [u32],
+    position: usize,
+    header: Header,
+    offset: usize,
+    planes: [f32; 2],
+) -> Result<(), BuildError> {
+    words[position] = encode(header, offset)?;
+    words[position + 1] = planes[0].to_bits();
+    words[position + 2] = planes[1].to_bits();
+    Ok(())
+}
+
+fn encode(header: Header, offset: usize) -> Result<u32, BuildError> {
+    if offset > MAX_OFFSET {
+        return Err(BuildError::OffsetOverflow {
+            needed: offset,
+            limit: MAX_OFFSET,
+        });
+    }
+    Ok(header.encode(offset))
+}
+
+/// Moves the first child of the node at `position` away by `distance` words;
+/// a leaf stays as it is.
+fn move_target(words: &mut [u32], position: usize, distance: usize) -> Result<(), BuildError> {
+    let word = crate::codec::FirstWord(words[position]);
+    let header = Header::decode(word).expect("this node was just written");
+    if !header.is_leaf() {
+        words[position] = encode(header, word.offset() as usize + distance)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_offset_beyond_26_bits_is_a_typed_error_and_the_largest_is_none() {
+        let node = |offset| write_node(&mut [0; 3], 0, Header::Leaf, offset, [0.0; 2]);
+        assert_eq!(node((1 << 26) - 1), Ok(()));
+        let error = BuildError::OffsetOverflow {
+            needed: 1 << 26,
+            limit: 67_108_863,
+        };
+        assert_eq!(node(1 << 26), Err(error));
+    }
+
+    #[test]
+    fn moving_a_target_checks_its_offset_and_leaves_leaves_alone() {
+        let splitting = Header::Splitting {
+            axis: accel_core::geometry::Axis::X,
+            first_child_words: 1,
+        };
+        let mut words = [splitting.encode(3), 0, 0];
+        move_target(&mut words, 0, 7).unwrap();
+        assert_eq!(words[0], splitting.encode(10));
+        assert!(move_target(&mut words, 0, MAX_OFFSET).is_err());
+        let mut leaf = [Header::Leaf.encode(5)];
+        move_target(&mut leaf, 0, MAX_OFFSET).unwrap();
+        assert_eq!(leaf[0], Header::Leaf.encode(5));
+    }
+}

@@ -1,0 +1,149 @@
+//! Every setting and every kind of source on every scene family, against brute
+//! force.
+
+use accel_core::BruteForce;
+use accel_core::testing::agreement::Expected;
+use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::{families, rays, strategy};
+use accel_dualsplit::{
+    AccelerationStructure, Bvh, BvhBuilder, CarvingCosts, DualSplitConverter, InvalidPrimitives,
+    LeafRule, ObjectSplit, Partitioning, Sphere, Triangle,
+};
+use accel_sbvh::SbvhBuilder;
+use proptest::prelude::*;
+
+/// Enough for a source that shares its conversion with one that is checked in
+/// full.
+const PART: Effort = Effort {
+    seeds: 2,
+    triangles: 500,
+    rays: 150,
+    full_size_rays: 0,
+};
+
+const BOTH: [Partitioning; 2] = [Partitioning::Identical, Partitioning::Similar];
+
+/// Checks both partitionings of the trees that `source` builds, on every family,
+/// and that each tree is valid.
+fn check<E>(
+    effort: &Effort,
+    source: impl Fn(&[Triangle]) -> Result<Bvh<Triangle>, E> + Sync,
+) -> Checked
+where
+    accel_dualsplit::BuildError: From<E>,
+{
+    let build = |triangles: &[Triangle]| {
+        let bvh = source(triangles)?;
+        let trees = BOTH.iter().map(|&partitioning| {
+            let converter = DualSplitConverter {
+                partitioning,
+                ..DualSplitConverter::default()
+            };
+            let tree = converter.convert(&bvh)?;
+            tree.validate()
+                .unwrap_or_else(|error| panic!("{converter:?}: {error}"));
+            Ok(tree)
+        });
+        trees.collect()
+    };
+    check_families(effort, build).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn bvh_builder(object_split: ObjectSplit) -> BvhBuilder {
+    BvhBuilder {
+        object_split,
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..BvhBuilder::default()
+    }
+}
+
+#[test]
+fn both_partitionings_agree_with_brute_force_on_every_family() {
+    let effort = Effort {
+        seeds: 4,
+        ..Effort::default()
+    };
+    let builder = bvh_builder(ObjectSplit::FullSweep);
+    let checked = check(&effort, |triangles| builder.build(triangles));
+    assert!(checked.families >= 40, "{checked:?}");
+    assert!(checked.hits > 20_000, "{checked:?}");
+}
+
+#[test]
+fn trees_of_binned_sources_agree_on_every_family() {
+    let builder = BvhBuilder {
+        leaf_rule: LeafRule::StopAt(1),
+        ..bvh_builder(ObjectSplit::default())
+    };
+    let checked = check(&PART, |triangles| builder.build(triangles));
+    assert!(checked.hits > 5_000, "{checked:?}");
+}
+
+#[test]
+fn trees_of_sources_with_duplicates_agree_on_every_family() {
+    let builder = SbvhBuilder {
+        alpha: 0.0,
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..SbvhBuilder::default()
+    };
+    let checked = check(&PART, |triangles| {
+        Ok::<_, accel_dualsplit::BuildError>(builder.build_with(triangles, &())?.0)
+    });
+    assert!(checked.hits > 5_000, "{checked:?}");
+}
+
+#[test]
+fn spheres_agree_with_brute_force() {
+    for seed in 0..10 {
+        let boxes = families::find("soup-mixed-sizes").unwrap().scene(seed, 400);
+        let spheres: Vec<Sphere> = boxes
+            .iter()
+            .map(|triangle| Sphere::new(triangle.a, triangle.a.distance(triangle.b)))
+            .collect();
+        let oracle = BruteForce::new(&spheres).unwrap();
+        let bvh = BvhBuilder::default().build(&spheres).unwrap();
+        for partitioning in BOTH {
+            let converter = DualSplitConverter {
+                partitioning,
+                ..DualSplitConverter::default()
+            };
+            let tree = converter.convert(&bvh).unwrap();
+            tree.validate().unwrap();
+            for ray in rays::mixed(&boxes, seed, 400) {
+                assert_eq!(tree.closest_hit(&ray), oracle.closest_hit(&ray), "{ray:?}");
+                assert_eq!(tree.any_hit(&ray), oracle.any_hit(&ray), "{ray:?}");
+                assert_eq!(tree.all_hits(&ray), oracle.all_hits(&ray), "{ray:?}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn any_scene_rays_and_costs_agree(
+        (scene, rays) in strategy::any_case(60, 30),
+        leaf_size in 1_usize..10,
+        is_identical: bool,
+        single_axis in prop_oneof![Just(0.3), 1e-3..10.0_f64],
+        dual_axis in prop_oneof![Just(0.5), 1e-3..10.0_f64],
+    ) {
+        let builder = BvhBuilder {
+            leaf_rule: LeafRule::SahUpTo(leaf_size),
+            ..bvh_builder(ObjectSplit::FullSweep)
+        };
+        let bvh = builder.build(&scene.triangles).unwrap();
+        let converter = DualSplitConverter {
+            partitioning: if is_identical { Partitioning::Identical } else { Partitioning::Similar },
+            carving_costs: CarvingCosts { single_axis, dual_axis },
+            ..DualSplitConverter::default()
+        };
+        let tree = converter.convert(&bvh).unwrap();
+        tree.validate().unwrap();
+        let expected = Expected::new(&scene.triangles, rays).unwrap();
+        if let Some(first) = expected.disagreements(&tree).first() {
+            prop_assert!(false, "{first}");
+        }
+    }
+}
