@@ -38,6 +38,11 @@ impl<P: Primitive> BspTree<P> {
         self.depth
     }
 
+    /// Whether both trees have the same nodes in the same order.
+    pub fn has_same_nodes(&self, other: &Self) -> bool {
+        self.nodes == other.nodes
+    }
+
     /// Counts nodes and leaves by kind.
     pub fn shape(&self) -> BspShape {
         let mut shape = BspShape::default();

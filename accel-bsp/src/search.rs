@@ -99,10 +99,14 @@ impl<'a, P: Polygonal> Search<'a, P> {
         self.best
     }
 
-    /// Every how many pieces one offers its planes.
+    /// Every how many pieces one offers its planes. In the largest nodes fewer
+    /// than asked for do, so that planes that every piece is near cost no more
+    /// than a constant in all.
     fn stride(&self) -> usize {
+        const MOST_TESTS: usize = 1 << 22;
+        let count = self.pieces.len();
         match self.builder.sampled_primitives {
-            Some(limit) => self.pieces.len().div_ceil(limit),
+            Some(limit) => count.div_ceil(limit.min(MOST_TESTS / count).max(1)),
             None => 1,
         }
     }

@@ -232,3 +232,89 @@ impl Crossing {
         (nearer, Some(farther))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BspBuilder, InvalidPrimitives};
+    use accel_core::testing::agreement::oracle;
+    use accel_core::testing::{families, rays};
+    use accel_core::{AccelerationStructure, ClosestHit, Ray, RaySegment, Triangle};
+
+    /// How many closest hits are answered differently from brute force, with
+    /// this tolerance.
+    fn disagreements(scene: &[Triangle], rays: &[RaySegment], tolerance: Tolerance) -> usize {
+        let builder = BspBuilder {
+            invalid_primitives: InvalidPrimitives::Skip,
+            epsilon: 1.0 / (1 << 14) as f64,
+            ..BspBuilder::default()
+        };
+        let tree = builder.build(scene).unwrap();
+        let oracle = oracle(scene).unwrap();
+        let closest = |ray: &RaySegment| {
+            let ray = PreparedRay::new(ray)?;
+            let mut query = ClosestHit::new(&ray);
+            traverse(&tree, &ray, &mut query, &mut (), tolerance);
+            query.best()
+        };
+        let differs = |ray: &&RaySegment| closest(ray) != oracle.closest_hit(*ray);
+        rays.iter().filter(differs).count()
+    }
+
+    /// Scenes with surfaces that are almost flat, seen from near and from far.
+    fn all_disagreements(tolerance: Tolerance) -> usize {
+        let names = [
+            "sheet-rotated",
+            "closed-icosphere",
+            "layers-one-ulp-apart",
+            "closed-room-of-strips",
+            "straddling-book",
+            "staircase-rotated",
+        ];
+        let count = |name| {
+            let scene = families::find(name).expect(name).scene(3, 400);
+            let near = rays::mixed(&scene, 5, 2000);
+            let away = |ray: &RaySegment, distance: f32| {
+                let (origin, direction) = (ray.origin(), ray.direction());
+                RaySegment::new(origin - direction * distance, direction)
+            };
+            let far = near.iter().map(|ray| away(ray, 1e3));
+            let very_far = near.iter().map(|ray| away(ray, 1e5));
+            let rays: Vec<RaySegment> = near.iter().copied().chain(far).chain(very_far).collect();
+            disagreements(&scene, &rays, tolerance)
+        };
+        names.into_iter().map(count).sum()
+    }
+
+    #[test]
+    fn no_hit_is_lost_with_the_whole_tolerance() {
+        assert_eq!(all_disagreements(Tolerance::SAFE), 0);
+    }
+
+    #[test]
+    fn hits_are_lost_without_tolerance() {
+        let none = Tolerance {
+            slack: 0.0,
+            rounding: 0.0,
+        };
+        assert!(all_disagreements(none) > 0);
+    }
+
+    #[test]
+    fn hits_are_lost_without_the_slack_of_the_build() {
+        let rounding_alone = Tolerance {
+            slack: 0.0,
+            ..Tolerance::SAFE
+        };
+        assert!(all_disagreements(rounding_alone) > 0);
+    }
+
+    #[test]
+    fn hits_are_lost_without_the_rounding_of_the_hit() {
+        let slack_alone = Tolerance {
+            rounding: 0.0,
+            ..Tolerance::SAFE
+        };
+        assert!(all_disagreements(slack_alone) > 0);
+    }
+}
