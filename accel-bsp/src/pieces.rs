@@ -8,7 +8,7 @@
 
 use accel_core::Polygonal;
 use accel_core::geometry::Side;
-use accel_core::glam::DVec3;
+use accel_core::glam::{DVec3, Vec3};
 use accel_core::reference::Reference;
 
 use crate::split_plane::SplitPlane;
@@ -44,7 +44,7 @@ impl Pieces {
             let primitive = &primitives[reference.id as usize];
             pieces
                 .corners
-                .extend(primitive.vertices().map(|corner| corner.as_dvec3()));
+                .extend(primitive.vertices().map(Vec3::as_dvec3));
             pieces.finish(reference.id, pad_of(primitive));
         }
         pieces

@@ -272,7 +272,8 @@ impl Polytope {
     fn check_euler(&self) -> Result<(), CutError> {
         let ends: usize = self.faces.iter().map(|face| face.corners.len()).sum();
         let is_simple = self.faces.iter().all(|face| face.corners.len() >= 3);
-        let closes = self.corners.len() + self.faces.len() == ends / 2 + 2 && ends % 2 == 0;
+        let closes =
+            self.corners.len() + self.faces.len() == ends / 2 + 2 && ends.is_multiple_of(2);
         if is_simple && closes && self.corners.len() >= 4 {
             Ok(())
         } else {
