@@ -33,7 +33,7 @@
 //! [`BspBuilder`] takes settings; `search` finds the best plane, with the counts
 //! of `sphere_hierarchy` and the areas of `polytope`, by the costs of `cost`;
 //! `pieces` divides what the node holds; `layout` packs the tree into the nodes of
-//! `node`; `traversal` walks them.
+//! `node`; `traversal` walks them; `persistence` saves and loads.
 //!
 //! # Complexity
 //! A node of n primitives weighs O(n) axis-aligned planes in O(n log n) time, and
@@ -45,6 +45,7 @@ mod builder;
 mod cost;
 mod layout;
 mod node;
+mod persistence;
 mod pieces;
 mod polytope;
 mod search;
@@ -61,7 +62,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, Polygonal, PreparedRay, Primitive, Query, Ray,
-    RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, Polygonal, PreparedRay, Primitive,
+    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
     TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -15,6 +15,9 @@ use crate::split_plane::SplitPlane;
 /// Bytes of a node.
 pub const NODE_BYTES: usize = size_of::<Node>();
 
+/// Words of 4 bytes of a node.
+pub(crate) const NODE_WORDS: usize = NODE_BYTES / 4;
+
 const _: () = assert!(NODE_BYTES == 20);
 
 const GENERAL: u32 = 3;
@@ -106,6 +109,44 @@ impl Node {
             normal: [0.0; 3],
             offset: 0.0,
             word: leaf << INDEX_SHIFT | IS_LEAF,
+        }
+    }
+
+    /// The node as words; [`from_words`](Self::from_words) reads them.
+    pub(crate) fn to_words(self) -> [u32; NODE_WORDS] {
+        let [x, y, z] = self.normal.map(f32::to_bits);
+        [x, y, z, self.offset.to_bits(), self.word]
+    }
+
+    pub(crate) fn from_words([x, y, z, offset, word]: [u32; NODE_WORDS]) -> Self {
+        Self {
+            normal: [x, y, z].map(f32::from_bits),
+            offset: f32::from_bits(offset),
+            word,
+        }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.offset.is_finite() && self.normal.iter().all(|x| x.is_finite())
+    }
+
+    /// The first of the two children of an inner node.
+    pub(crate) fn children(&self) -> Option<u32> {
+        (self.word & IS_LEAF == 0).then_some(self.word >> INDEX_SHIFT)
+    }
+
+    /// The number of a leaf that is not empty.
+    pub(crate) fn leaf_number(&self) -> Option<u32> {
+        let leaf = self.word >> INDEX_SHIFT;
+        (self.word & IS_LEAF != 0 && leaf != NO_LEAF).then_some(leaf)
+    }
+
+    /// This leaf, with another number.
+    pub(crate) fn with_leaf_number(self, leaf: u32) -> Self {
+        let low_bits = self.word & !(NO_LEAF << INDEX_SHIFT);
+        Self {
+            word: leaf << INDEX_SHIFT | low_bits,
+            ..self
         }
     }
 
