@@ -37,3 +37,24 @@ fn every_variant_agrees_with_brute_force_on_every_family() {
         "{checked:?}"
     );
 }
+
+#[test]
+fn other_epsilons_and_the_exhaustive_search_agree_on_every_family() {
+    let part = Effort {
+        seeds: 1,
+        triangles: 150,
+        ..EFFORT
+    };
+    let tri = BspBuilder::with_planar_leaves();
+    let with_epsilon = |exponent: u32| BspBuilder {
+        epsilon: 1.0 / (1_u32 << exponent) as f64,
+        ..tri
+    };
+    let exhaustive = BspBuilder {
+        sampled_primitives: None,
+        ..tri
+    };
+    let settings = [with_epsilon(24), with_epsilon(14), exhaustive];
+    let checked = check(&part, &settings);
+    assert!(checked.hits > 2_000, "{checked:?}");
+}
