@@ -1,10 +1,68 @@
 //! The general binary space partitioning tree, with split planes of any
 //! orientation.
 //!
-//! Source: Thiago Ize, Ingo Wald and Steven G. Parker, *Ray Tracing with the
-//! BSP Tree*, IEEE Symposium on Interactive Ray Tracing 2008.
+//! A BSP tree divides space by a plane, and both parts again. Where a kd-tree
+//! takes planes orthogonal to the axes alone, this one also takes the planes of
+//! the primitives' faces, and those through their edges, so that long triangles
+//! across the axes are told apart. Each node weighs such candidates by the
+//! surface area heuristic, for which it knows its cell, a convex polytope. Most
+//! nodes still turn out axis-aligned, and these are traversed as fast as in a
+//! kd-tree. A ray visits the nearer side of each plane first, and both sides where
+//! it comes so near to the plane that rounding could hide a hit.
 //!
-//! **Not built yet: this crate holds its documentation alone.** It will hold
-//! polytope cells clipped in double precision, candidate planes taken from the
-//! primitives, both cost models of the paper, 20-byte nodes with a fast path
-//! for axis-aligned planes, and the modes BSP, BSP-orig and BSP-tri.
+//! ```
+//! use accel_bsp::{AccelerationStructure, BspBuilder, RaySegment, Triangle};
+//!
+//! # fn main() -> Result<(), accel_bsp::BuildError> {
+//! let triangles = [
+//!     Triangle::new([0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]),
+//!     Triangle::new([0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]),
+//! ];
+//! let tree = BspBuilder::default().build(&triangles)?;
+//! let hit = tree.closest_hit(&RaySegment::new([0.2, 0.2, 0.0], [0.0, 0.0, 1.0])).unwrap();
+//! assert_eq!((hit.id, hit.t), (0, 5.0));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Source
+//! Thiago Ize, Ingo Wald and Steven G. Parker, *Ray Tracing with the BSP Tree*,
+//! IEEE Symposium on Interactive Ray Tracing 2008.
+//!
+//! # Reading order
+//! [`BspBuilder`] takes settings; `search` finds the best plane, with the counts
+//! of `sphere_hierarchy` and the areas of `polytope`, by the costs of `cost`;
+//! `pieces` divides what the node holds; `layout` packs the tree into the nodes of
+//! `node`; `traversal` walks them; `persistence` saves and loads.
+//!
+//! # Complexity
+//! A node of n primitives weighs O(n) axis-aligned planes in O(n log n) time, and
+//! the planes of at most `sampled_primitives` primitives, each counted in less
+//! than O(n) time where few primitives are near it.
+
+mod bsp_tree;
+mod builder;
+mod cost;
+mod layout;
+mod node;
+mod persistence;
+mod pieces;
+mod polytope;
+mod search;
+mod sphere_hierarchy;
+mod split_plane;
+mod traversal;
+
+pub use bsp_tree::{BspShape, BspTree};
+pub use builder::BspBuilder;
+pub use cost::BspCosts;
+pub use node::NODE_BYTES;
+
+pub use accel_core::layout::{Indexed, LeafOrdered};
+pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
+pub use accel_core::{
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
+    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, Polygonal, PreparedRay, Primitive,
+    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    TreeStatistics, Triangle, ValidationError, glam,
+};

@@ -5,6 +5,7 @@
 
 pub use glam;
 
+pub mod archive;
 mod brute_force;
 pub mod build;
 mod error;
@@ -21,6 +22,7 @@ pub mod structure;
 #[cfg(feature = "testing")]
 pub mod testing;
 
+pub use archive::LoadError;
 pub use brute_force::BruteForce;
 pub use build::{BuildBudget, BuildObserver, InvalidPrimitives};
 pub use error::{BuildError, RefitError, ValidationError};

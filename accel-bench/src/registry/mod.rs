@@ -1,5 +1,6 @@
 //! The table of structures and settings: adding a structure is adding a row.
 
+mod bsp;
 mod bvh;
 mod dualsplit;
 mod sbvh;
@@ -57,7 +58,13 @@ static BRUTE_FORCE: &[Row] = &[Row {
 }];
 
 /// The rows of every crate, in the order of tables.
-static ROWS: &[&[Row]] = &[bvh::ROWS, sbvh::ROWS, dualsplit::ROWS, BRUTE_FORCE];
+static ROWS: &[&[Row]] = &[
+    bvh::ROWS,
+    sbvh::ROWS,
+    bsp::ROWS,
+    dualsplit::ROWS,
+    BRUTE_FORCE,
+];
 
 /// The brute force that every row must agree with.
 ///

@@ -1,0 +1,134 @@
+//! The tree.
+
+use accel_core::layout::{LeafStorage, StoredPrimitives};
+use accel_core::query::Query;
+use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
+use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+
+use crate::node::{Node, NodeKind};
+use crate::traversal::Tolerance;
+
+/// A general BSP tree in nodes of 20 bytes. Made by
+/// [`BspBuilder`](crate::BspBuilder); owns its primitives.
+#[derive(Clone, Debug)]
+pub struct BspTree<P: Primitive> {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) stored: StoredPrimitives<P>,
+    /// `None` where there is nothing to hit.
+    pub(crate) bounds: Option<Aabb>,
+    /// Edges from the root to the deepest leaf.
+    pub(crate) depth: u32,
+}
+
+/// How many nodes and leaves of each kind a [`BspTree`] has: the rows of Table 3
+/// of the paper.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BspShape {
+    /// Nodes split orthogonally to an axis.
+    pub axis_aligned: usize,
+    /// Nodes split by other planes.
+    pub general: usize,
+    /// By the number of primitives, the number of leaves that hold as many.
+    pub leaves_by_size: Vec<usize>,
+}
+
+impl<P: Primitive> BspTree<P> {
+    /// Edges from the root to the deepest leaf.
+    pub fn depth(&self) -> u32 {
+        self.depth
+    }
+
+    /// Whether both trees have the same nodes in the same order.
+    pub fn has_same_nodes(&self, other: &Self) -> bool {
+        self.nodes == other.nodes
+    }
+
+    /// Counts nodes and leaves by kind.
+    pub fn shape(&self) -> BspShape {
+        let mut shape = BspShape::default();
+        for node in &self.nodes {
+            let size = match node.kind() {
+                NodeKind::AxisAligned { .. } => {
+                    shape.axis_aligned += 1;
+                    continue;
+                }
+                NodeKind::General { .. } => {
+                    shape.general += 1;
+                    continue;
+                }
+                NodeKind::Empty => 0,
+                NodeKind::Leaf(leaf) => self.stored.leaves().leaf_ids(leaf).count(),
+                NodeKind::PlanarLeaf { .. } => 1,
+            };
+            if shape.leaves_by_size.len() <= size {
+                shape.leaves_by_size.resize(size + 1, 0);
+            }
+            shape.leaves_by_size[size] += 1;
+        }
+        shape
+    }
+}
+
+impl<P: Primitive> AccelerationStructure for BspTree<P> {
+    type Primitive = P;
+    type Storage = P::Storage;
+
+    #[inline]
+    fn traverse<Q: Query, S: TraversalStatistics>(
+        &self,
+        ray: &PreparedRay,
+        query: &mut Q,
+        statistics: &mut S,
+    ) {
+        crate::traversal::traverse(self, ray, query, statistics, Tolerance::SAFE);
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        self.bounds
+    }
+
+    fn stored(&self) -> &StoredPrimitives<P> {
+        &self.stored
+    }
+
+    fn node_bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+    }
+
+    /// Bounds are boxes around the cells, cut by the axis-aligned planes alone.
+    fn outline(&self) -> TreeOutline {
+        let mut outline = TreeOutline::default();
+        let root = self.bounds.map(|bounds| (0, bounds, None));
+        let mut pending: Vec<(u32, Aabb, Option<u32>)> = root.into_iter().collect();
+        while let Some((index, bounds, parent)) = pending.pop() {
+            let (children, boxes) = match self.nodes[index as usize].kind() {
+                NodeKind::Empty => {
+                    outline.push_leaf(bounds, parent, std::iter::empty());
+                    continue;
+                }
+                NodeKind::Leaf(leaf) | NodeKind::PlanarLeaf { leaf, .. } => {
+                    let ids = self.stored.leaves().leaf_ids(leaf);
+                    outline.push_leaf(bounds, parent, ids);
+                    continue;
+                }
+                NodeKind::General { children, .. } => (children, [bounds; 2]),
+                NodeKind::AxisAligned {
+                    axis,
+                    position,
+                    children,
+                    ..
+                } => {
+                    let behind = bounds.with_range(axis, f32::MIN, position);
+                    let in_front = bounds.with_range(axis, position, f32::MAX);
+                    (children, [behind, in_front])
+                }
+            };
+            let node = outline.push_inner(StatisticsKind::Inner, bounds, parent);
+            pending.push((children + 1, boxes[1], Some(node)));
+            pending.push((children, boxes[0], Some(node)));
+        }
+        outline
+    }
+}
+
+impl<P: Primitive, const N: usize> PacketTraversal<N> for BspTree<P> {}

@@ -1,0 +1,234 @@
+//! Settings, and the way from primitives to a tree.
+
+use accel_core::build::{Division, TopDown, build_top_down};
+use accel_core::reference::gather;
+use accel_core::{BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Polygonal};
+
+use crate::BspTree;
+use crate::cost::BspCosts;
+use crate::pieces::Pieces;
+use crate::polytope::Polytope;
+use crate::search::{Search, Split};
+use crate::split_plane::SplitPlane;
+
+/// Builds a [`BspTree`]. All settings have defaults; [`original`](Self::original)
+/// and [`with_planar_leaves`](Self::with_planar_leaves) give the paper's variants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BspBuilder {
+    /// The costs of visiting nodes and of testing primitives.
+    pub costs: BspCosts,
+    /// Whether nodes split orthogonally to an axis are traversed by the fast path
+    /// of a kd-tree. Without it every node costs as much as a general one.
+    pub axis_aligned_nodes: bool,
+    /// BSP-tri (section 4.3): a leaf of one primitive keeps the primitive's plane,
+    /// and the primitive is tested only where the ray crosses that plane inside
+    /// the leaf.
+    pub planar_leaves: bool,
+    /// How far primitives may reach over a plane and still be on one side of it,
+    /// relative to the extent of what the node holds: 2^-24 to 2^-14. Larger
+    /// values need fewer planes for surfaces that are almost flat, but traversal
+    /// visits both sides more often.
+    pub epsilon: f64,
+    /// In larger nodes, of how many primitives, evenly picked, the planes are
+    /// tried; axis-aligned planes are tried for all. `None` is the paper's
+    /// exhaustive search. At least 1.
+    pub sampled_primitives: Option<usize>,
+    /// How many references all splits together may add, for each primitive;
+    /// shared out from the root down. Finite and at least 0.
+    pub max_duplication: f64,
+    /// Whether primitives without finite bounds are refused or left out.
+    pub invalid_primitives: InvalidPrimitives,
+    /// Limits on memory and depth.
+    pub budget: BuildBudget,
+}
+
+impl Default for BspBuilder {
+    fn default() -> Self {
+        Self {
+            costs: BspCosts::default(),
+            axis_aligned_nodes: true,
+            planar_leaves: false,
+            epsilon: 1.0 / (1 << 20) as f64,
+            sampled_primitives: Some(64),
+            max_duplication: 16.0,
+            invalid_primitives: InvalidPrimitives::default(),
+            budget: BuildBudget::default(),
+        }
+    }
+}
+
+impl BspBuilder {
+    /// BSP-orig: general nodes only, and the plain surface area heuristic
+    /// (section 5).
+    pub fn original() -> Self {
+        let costs = BspCosts {
+            alpha: None,
+            ..BspCosts::default()
+        };
+        Self {
+            costs,
+            axis_aligned_nodes: false,
+            ..Self::default()
+        }
+    }
+
+    /// BSP-tri: leaves that hold one primitive keep its plane (section 4.3).
+    pub fn with_planar_leaves() -> Self {
+        Self {
+            planar_leaves: true,
+            ..Self::default()
+        }
+    }
+
+    /// Builds the tree of `primitives`; hits name them by their position there.
+    ///
+    /// # Errors
+    /// Any [`BuildError`] but `Cancelled`.
+    pub fn build<P: Polygonal>(&self, primitives: &[P]) -> Result<BspTree<P>, BuildError> {
+        self.build_with(primitives, &())
+    }
+
+    /// As [`build`](Self::build), telling `observer` how far it is and stopping
+    /// when told to.
+    ///
+    /// # Errors
+    /// Any [`BuildError`].
+    pub fn build_with<P: Polygonal>(
+        &self,
+        primitives: &[P],
+        observer: &dyn BuildObserver,
+    ) -> Result<BspTree<P>, BuildError> {
+        self.validate()?;
+        self.budget
+            .check_bytes(self.working_bytes(primitives.len()))?;
+        let gathered = gather(primitives, self.invalid_primitives)?;
+        let (bounds, skipped) = (gathered.bounds, gathered.skipped);
+        if gathered.references.is_empty() {
+            return Ok(BspTree::empty(primitives, skipped));
+        }
+        let strategy = Strategy {
+            builder: self,
+            primitives,
+        };
+        let count = gathered.references.len();
+        let task = Task {
+            pieces: Pieces::new(primitives, &gathered.references),
+            cell: Polytope::of_box(&bounds),
+            duplicates: (self.max_duplication * count as f64) as usize,
+        };
+        drop(gathered.references);
+        let tree = build_top_down(&strategy, task, 0, observer)?;
+        BspTree::pack(self, primitives, &tree, bounds, skipped)
+    }
+
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`BuildError::InvalidSetting`] names the first that is out of its range.
+    pub fn validate(&self) -> Result<(), BuildError> {
+        let reject = |setting, value: String, allowed| {
+            Err(BuildError::InvalidSetting {
+                setting,
+                value,
+                allowed,
+            })
+        };
+        self.costs.validate()?;
+        self.budget.validate()?;
+        if !(1.0 / (1 << 24) as f64..=1.0 / (1 << 14) as f64).contains(&self.epsilon) {
+            return reject("epsilon", self.epsilon.to_string(), "2^-24 to 2^-14");
+        }
+        if self.sampled_primitives == Some(0) {
+            return reject("sampled_primitives", "0".into(), "1 or more");
+        }
+        if !(0.0..f64::INFINITY).contains(&self.max_duplication) {
+            return reject(
+                "max_duplication",
+                self.max_duplication.to_string(),
+                "a finite number, 0 or more",
+            );
+        }
+        Ok(())
+    }
+
+    /// Bytes that pieces and nodes may take while a tree is built over this many
+    /// primitives, about.
+    pub fn working_bytes(&self, primitives: usize) -> usize {
+        const BYTES_PER_PIECE: usize = 256;
+        let references = primitives as f64 * (1.0 + self.max_duplication);
+        (references as usize).saturating_mul(BYTES_PER_PIECE)
+    }
+}
+
+/// A node to be divided.
+struct Task {
+    pieces: Pieces,
+    cell: Polytope,
+    /// How many references the subtree may still add.
+    duplicates: usize,
+}
+
+struct Strategy<'a, P> {
+    builder: &'a BspBuilder,
+    primitives: &'a [P],
+}
+
+impl<P: Polygonal> TopDown for Strategy<'_, P> {
+    type Task = Task;
+    type Node = SplitPlane;
+
+    fn size(&self, task: &Task) -> usize {
+        task.pieces.len()
+    }
+
+    fn divide(&self, task: Task, depth: u32, leaf: &mut Vec<u32>) -> Division<Self> {
+        match self.split(&task, depth) {
+            Some((node, children)) => Division::Inner { node, children },
+            None => {
+                leaf.extend_from_slice(task.pieces.ids());
+                Division::Leaf
+            }
+        }
+    }
+}
+
+impl<P: Polygonal> Strategy<'_, P> {
+    /// The best split that is cheaper than a leaf and cuts the cell cleanly.
+    fn split(&self, task: &Task, depth: u32) -> Option<(SplitPlane, [Task; 2])> {
+        let (pieces, cell) = (&task.pieces, &task.cell);
+        if pieces.len() == 0 || depth >= self.builder.budget.max_depth {
+            return None;
+        }
+        let costs = &self.builder.costs;
+        let leaf_cost = costs.heuristic(0.0).leaf_cost(pieces.len());
+        let search = Search::new(self.builder, self.primitives, pieces, cell, task.duplicates);
+        let mut splits = search.run().cheaper_than(leaf_cost);
+        splits.find_map(|split| {
+            let cells = cell.cut(&split.plane).ok()?;
+            Some((split.plane, children(task, &split, cells)))
+        })
+    }
+}
+
+/// Both tasks, what is left of the duplicates shared by size.
+fn children(task: &Task, split: &Split, cells: [Polytope; 2]) -> [Task; 2] {
+    let left = task.duplicates - split.straddling.min(task.duplicates);
+    let parts = task.pieces.divide(&split.plane, split.planar_in_front);
+    let total = (parts[0].len() + parts[1].len()).max(1);
+    let shares = [0, 1]
+        .map(|side: usize| (left as u128 * parts[side].len() as u128 / total as u128) as usize);
+    let [behind, in_front] = parts;
+    let [cell_behind, cell_in_front] = cells;
+    [
+        Task {
+            pieces: behind,
+            cell: cell_behind,
+            duplicates: shares[0],
+        },
+        Task {
+            pieces: in_front,
+            cell: cell_in_front,
+            duplicates: shares[1],
+        },
+    ]
+}

@@ -1,0 +1,408 @@
+//! The convex cell of a node, cut by planes in double precision (Ize 2008,
+//! sections 3.1 and 3.2).
+//!
+//! ```text
+//! class of a vertex := behind, on or in front of the plane, decided once
+//! for each side:
+//!     each face keeps its vertices there or on the plane, and the crossings of
+//!         its edges, which both faces of an edge share
+//!     the edges that come to lie on the plane, reversed and linked, are the cap
+//!     refuse the cut if they do not close, or if V - E + F is not 2
+//! ```
+
+use accel_core::Aabb;
+use accel_core::glam::DVec3;
+
+use crate::split_plane::SplitPlane;
+
+/// A convex polytope: corners, and faces as loops of them, counter-clockwise
+/// seen from outside.
+#[derive(Clone, Debug)]
+pub(crate) struct Polytope {
+    corners: Vec<DVec3>,
+    faces: Vec<Face>,
+    area: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Face {
+    corners: Vec<u32>,
+    area: f64,
+}
+
+/// Why a polytope was not cut: rounding left a part that is not closed, or the
+/// plane does not pass through the inside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CutError {
+    /// One side holds no volume.
+    Misses,
+    /// The edges on the plane are not one closed loop.
+    OpenCap,
+    /// V - E + F is not 2.
+    Euler,
+}
+
+/// Corners nearer to a plane than this, relative to the terms of the signed
+/// distance, are on it.
+const ON_PLANE: f64 = 1.0 / (1_u64 << 40) as f64;
+
+impl Polytope {
+    /// The cell of the root.
+    pub(crate) fn of_box(bounds: &Aabb) -> Self {
+        let corner = |index: u32| bounds.corner([0, 1, 2].map(|axis| index >> axis & 1 == 1));
+        let corners = (0..8).map(|index| corner(index).as_dvec3()).collect();
+        let loops = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        Self::new(corners, loops.map(Vec::from).into())
+    }
+
+    fn new(corners: Vec<DVec3>, loops: Vec<Vec<u32>>) -> Self {
+        let faces: Vec<Face> = loops
+            .into_iter()
+            .map(|loop_corners| Face {
+                area: loop_area(loop_corners.iter().map(|&index| corners[index as usize])),
+                corners: loop_corners,
+            })
+            .collect();
+        let area = faces.iter().map(|face| face.area).sum();
+        Self {
+            corners,
+            faces,
+            area,
+        }
+    }
+
+    /// The surface area; of a flat cell both sides count.
+    pub(crate) fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// The smallest box around the cell.
+    #[cfg(test)]
+    fn bounds(&self) -> [DVec3; 2] {
+        crate::pieces::bounds_of(&self.corners)
+    }
+
+    /// The surface areas of the parts behind and in front of `plane`, without
+    /// making them; `None` if either is empty.
+    ///
+    /// The cap needs no linking here: the area of a closed polygon is half the
+    /// sum of the cross products of its edges, in any order.
+    pub(crate) fn split_areas(
+        &self,
+        plane: &SplitPlane,
+        distances: &mut Vec<f64>,
+    ) -> Option<[f64; 2]> {
+        self.classify(plane, distances).ok()?;
+        let (mut behind, mut in_front, mut cap) = (0.0, 0.0, DVec3::ZERO);
+        let center = self.corners[0];
+        for face in &self.faces {
+            let s = |index: u32| distances[index as usize];
+            let is_behind = face.corners.iter().any(|&index| s(index) < 0.0);
+            if !is_behind {
+                in_front += face.area;
+                continue;
+            }
+            let mut loop_area = LoopArea::default();
+            let mut previous: Option<(DVec3, bool)> = None;
+            let mut first = None;
+            let mut visit = |point: DVec3, is_on: bool| {
+                loop_area.add(point);
+                if let Some((from, true)) = previous
+                    && is_on
+                {
+                    cap += (from - center).cross(point - center);
+                }
+                previous = Some((point, is_on));
+                first.get_or_insert((point, is_on));
+            };
+            for (index, &from) in face.corners.iter().enumerate() {
+                let to = face.corners[(index + 1) % face.corners.len()];
+                let (s_from, s_to) = (s(from), s(to));
+                if s_from <= 0.0 {
+                    visit(self.corners[from as usize], s_from == 0.0);
+                }
+                if s_from * s_to < 0.0 {
+                    visit(self.crossing(from, to, s_from, s_to), true);
+                }
+            }
+            if let (Some((from, true)), Some((to, true))) = (previous, first) {
+                cap += (from - center).cross(to - center);
+            }
+            let part = loop_area.area().min(face.area);
+            behind += part;
+            in_front += face.area - part;
+        }
+        let cap = 0.5 * cap.length();
+        Some([behind, in_front].map(|part| (part + cap).min(self.area)))
+    }
+
+    /// The parts behind and in front of `plane`.
+    pub(crate) fn cut(&self, plane: &SplitPlane) -> Result<[Self; 2], CutError> {
+        let mut distances = Vec::with_capacity(self.corners.len());
+        self.classify(plane, &mut distances)?;
+        let mut cut = Cut {
+            polytope: self,
+            distances: &distances,
+            corners: self.corners.clone(),
+            crossings: Vec::new(),
+        };
+        let behind = cut.side(-1.0)?;
+        let in_front = cut.side(1.0)?;
+        Ok([behind, in_front])
+    }
+
+    /// The signed distance of each corner, exactly zero for those on the plane.
+    fn classify(&self, plane: &SplitPlane, distances: &mut Vec<f64>) -> Result<(), CutError> {
+        distances.clear();
+        let absolute = plane.normal().abs();
+        distances.extend(self.corners.iter().map(|&corner| {
+            let s = plane.signed_distance(corner);
+            let noise = ON_PLANE * (absolute.dot(corner.abs()) + plane.offset().abs());
+            if s.abs() <= noise { 0.0 } else { s }
+        }));
+        let has = |is_there: fn(&f64) -> bool| distances.iter().any(is_there);
+        if has(|&s| s < 0.0) && has(|&s| s > 0.0) {
+            Ok(())
+        } else {
+            Err(CutError::Misses)
+        }
+    }
+
+    /// Where an edge crosses the plane: the same point for both its directions.
+    fn crossing(&self, from: u32, to: u32, s_from: f64, s_to: f64) -> DVec3 {
+        let (low, high, s_low, s_high) = if from < to {
+            (from, to, s_from, s_to)
+        } else {
+            (to, from, s_to, s_from)
+        };
+        let (low, high) = (self.corners[low as usize], self.corners[high as usize]);
+        low + (high - low) * (s_low / (s_low - s_high))
+    }
+}
+
+/// A cut under way: corners of the polytope and the crossings found so far.
+struct Cut<'a> {
+    polytope: &'a Polytope,
+    distances: &'a [f64],
+    corners: Vec<DVec3>,
+    /// An edge, smaller corner first, and the corner where it crosses.
+    crossings: Vec<([u32; 2], u32)>,
+}
+
+impl Cut<'_> {
+    /// The part where the signed distance has this sign.
+    fn side(&mut self, sign: f64) -> Result<Polytope, CutError> {
+        let mut loops = Vec::with_capacity(self.polytope.faces.len() + 1);
+        let mut cap_edges = Vec::new();
+        for face in &self.polytope.faces {
+            let kept = self.clip(&face.corners, sign);
+            if kept.iter().all(|&index| self.is_on(index)) {
+                continue;
+            }
+            for (position, &from) in kept.iter().enumerate() {
+                let to = kept[(position + 1) % kept.len()];
+                if self.is_on(from) && self.is_on(to) {
+                    cap_edges.push([to, from]);
+                }
+            }
+            loops.push(kept);
+        }
+        loops.push(link(&cap_edges)?);
+        let part = self.renumbered(loops);
+        part.check_euler()?;
+        Ok(part)
+    }
+
+    fn is_on(&self, index: u32) -> bool {
+        self.distances.get(index as usize).is_none_or(|&s| s == 0.0)
+    }
+
+    fn clip(&mut self, face: &[u32], sign: f64) -> Vec<u32> {
+        let mut kept = Vec::with_capacity(face.len() + 1);
+        for (position, &from) in face.iter().enumerate() {
+            let to = face[(position + 1) % face.len()];
+            let (s_from, s_to) = (self.distances[from as usize], self.distances[to as usize]);
+            if s_from * sign >= 0.0 {
+                kept.push(from);
+            }
+            if s_from * s_to < 0.0 {
+                kept.push(self.shared_crossing(from, to));
+            }
+        }
+        kept
+    }
+
+    fn shared_crossing(&mut self, from: u32, to: u32) -> u32 {
+        let edge = [from.min(to), from.max(to)];
+        if let Some((_, corner)) = self.crossings.iter().find(|(known, _)| *known == edge) {
+            return *corner;
+        }
+        let s = |index: u32| self.distances[index as usize];
+        let point = self.polytope.crossing(from, to, s(from), s(to));
+        let corner = self.corners.len() as u32;
+        self.corners.push(point);
+        self.crossings.push((edge, corner));
+        corner
+    }
+
+    /// The polytope of these faces, without corners that none of them uses.
+    fn renumbered(&self, mut loops: Vec<Vec<u32>>) -> Polytope {
+        let mut numbers = vec![u32::MAX; self.corners.len()];
+        let mut corners = Vec::new();
+        for index in loops.iter_mut().flatten() {
+            let number = &mut numbers[*index as usize];
+            if *number == u32::MAX {
+                *number = corners.len() as u32;
+                corners.push(self.corners[*index as usize]);
+            }
+            *index = *number;
+        }
+        Polytope::new(corners, loops)
+    }
+}
+
+impl Polytope {
+    fn check_euler(&self) -> Result<(), CutError> {
+        let ends: usize = self.faces.iter().map(|face| face.corners.len()).sum();
+        let is_simple = self.faces.iter().all(|face| face.corners.len() >= 3);
+        let closes =
+            self.corners.len() + self.faces.len() == ends / 2 + 2 && ends.is_multiple_of(2);
+        if is_simple && closes && self.corners.len() >= 4 {
+            Ok(())
+        } else {
+            Err(CutError::Euler)
+        }
+    }
+}
+
+/// Links edges to the one loop that they form.
+fn link(edges: &[[u32; 2]]) -> Result<Vec<u32>, CutError> {
+    let &[start, mut end] = edges.first().ok_or(CutError::OpenCap)?;
+    let mut linked = vec![start];
+    while end != start {
+        if linked.len() > edges.len() {
+            return Err(CutError::OpenCap);
+        }
+        linked.push(end);
+        let mut followers = edges.iter().filter(|edge| edge[0] == end);
+        match (followers.next(), followers.next()) {
+            (Some(edge), None) => end = edge[1],
+            _ => return Err(CutError::OpenCap),
+        }
+    }
+    if linked.len() == edges.len() && linked.len() >= 3 {
+        Ok(linked)
+    } else {
+        Err(CutError::OpenCap)
+    }
+}
+
+/// The area of a polygon: half the length of the sum of
+/// `(v_i - v_0) x (v_(i+1) - v_0)`.
+#[derive(Default)]
+struct LoopArea {
+    first: Option<DVec3>,
+    last: DVec3,
+    sum: DVec3,
+}
+
+impl LoopArea {
+    #[inline]
+    fn add(&mut self, point: DVec3) {
+        match self.first {
+            None => self.first = Some(point),
+            Some(first) => self.sum += (self.last - first).cross(point - first),
+        }
+        self.last = point;
+    }
+
+    fn area(&self) -> f64 {
+        0.5 * self.sum.length()
+    }
+}
+
+fn loop_area(points: impl Iterator<Item = DVec3>) -> f64 {
+    let mut area = LoopArea::default();
+    points.for_each(|point| area.add(point));
+    area.area()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel_core::geometry::{Axis, Plane};
+    use accel_core::glam::Vec3;
+
+    fn unit_cube() -> Polytope {
+        Polytope::of_box(&Aabb::new([0.0; 3], [1.0; 3]))
+    }
+
+    fn through(point: [f32; 3], normal: [f32; 3]) -> SplitPlane {
+        let plane = Plane::through(point.into(), Vec3::from(normal).normalize());
+        SplitPlane::general(&plane, point.into(), 1e-6).unwrap()
+    }
+
+    #[test]
+    fn a_cube_is_cut_in_half() {
+        let plane = SplitPlane::axis_aligned(Axis::X, 0.5, 1e-6);
+        let parts = unit_cube().cut(&plane).unwrap();
+        assert_eq!(unit_cube().area(), 6.0);
+        assert_eq!(parts.map(|part| part.area()), [4.0, 4.0]);
+    }
+
+    #[test]
+    fn a_corner_cut_off_is_a_tetrahedron_with_areas_known_by_hand() {
+        let plane = through([0.5, 0.0, 0.0], [1.0, 1.0, 1.0]);
+        let [corner, rest] = unit_cube().cut(&plane).unwrap();
+        let cap = 3.0_f64.sqrt() / 8.0;
+        assert!((corner.area() - (3.0 / 8.0 + cap)).abs() < 1e-6);
+        assert!((rest.area() - (6.0 - 3.0 / 8.0 + cap)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_plane_through_corners_and_edges_closes() {
+        let [a, b] = unit_cube()
+            .cut(&through([0.0; 3], [1.0, -1.0, 0.0]))
+            .unwrap();
+        assert_eq!((a.corners.len(), b.corners.len()), (6, 6));
+        let touching = through([0.0; 3], [1.0, 1.0, 1.0]);
+        assert_eq!(unit_cube().cut(&touching).unwrap_err(), CutError::Misses);
+    }
+
+    #[test]
+    fn estimated_areas_equal_those_of_the_parts_through_many_cuts() {
+        let mut random = 1_u32;
+        let mut next = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 8) as f32 / (1 << 24) as f32
+        };
+        let (mut cell, mut cuts, mut distances) = (unit_cube(), 0, Vec::new());
+        for _ in 0..2000 {
+            let normal = [next() - 0.5, next() - 0.5, next() - 0.5];
+            let [low, high] = cell.bounds();
+            let at = low + (high - low) * f64::from(next());
+            let plane = through(at.as_vec3().to_array(), normal);
+            let Some(areas) = cell.split_areas(&plane, &mut distances) else {
+                continue;
+            };
+            let parts = cell.cut(&plane).unwrap();
+            for (part, area) in parts.iter().zip(areas) {
+                assert!((part.area() - area).abs() <= 1e-9 * cell.area());
+            }
+            cuts += 1;
+            let [behind, in_front] = parts;
+            cell = if next() < 0.5 { behind } else { in_front };
+            if cell.area() < 1e-3 {
+                cell = unit_cube();
+            }
+        }
+        assert!(cuts > 500, "{cuts}");
+    }
+}

@@ -1,0 +1,274 @@
+//! The best plane to split a node by (Ize 2008, sections 3.3 to 3.5).
+//!
+//! ```text
+//! axis-aligned planes tangent to the pieces: counts from sorted ends
+//! planes of the primitives:                  counts from the sphere hierarchy
+//! a candidate whose counts alone are too dear is dropped; areas decide the rest
+//! best by the linear C_BSP, if it beats the leaf; else best by the fixed one
+//! ```
+
+use accel_core::Polygonal;
+use accel_core::geometry::Axis;
+
+use crate::builder::BspBuilder;
+use crate::pieces::{Counts, Pieces, pad_of};
+use crate::polytope::Polytope;
+use crate::sphere_hierarchy::SphereHierarchy;
+use crate::split_plane::SplitPlane;
+
+/// Single precision places a point of coordinate 1 within this.
+const RELATIVE_PLACEMENT: f64 = 1.0 / (1 << 22) as f64;
+
+/// A split, and what it costs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Split {
+    pub plane: SplitPlane,
+    pub planar_in_front: bool,
+    pub straddling: usize,
+    cost: f64,
+}
+
+/// The splits worth carrying out, best first.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Splits {
+    linear: Option<Split>,
+    fixed: Option<Split>,
+    axis_aligned: Option<Split>,
+}
+
+impl Splits {
+    /// Those cheaper than a leaf, in the order to try them: where the best one's
+    /// plane cuts the cell badly, the best axis-aligned one.
+    pub(crate) fn cheaper_than(self, leaf_cost: f64) -> impl Iterator<Item = Split> {
+        let worthwhile = move |split: &Split| split.cost < leaf_cost;
+        let best = self
+            .linear
+            .filter(worthwhile)
+            .or(self.fixed.filter(worthwhile));
+        best.into_iter().chain(self.axis_aligned.filter(worthwhile))
+    }
+}
+
+/// The search in one node.
+pub(crate) struct Search<'a, P> {
+    builder: &'a BspBuilder,
+    primitives: &'a [P],
+    pieces: &'a Pieces,
+    cell: &'a Polytope,
+    /// How many pieces may be duplicated.
+    duplicates: usize,
+    best: Splits,
+    distances: Vec<f64>,
+}
+
+impl<'a, P: Polygonal> Search<'a, P> {
+    pub(crate) fn new(
+        builder: &'a BspBuilder,
+        primitives: &'a [P],
+        pieces: &'a Pieces,
+        cell: &'a Polytope,
+        duplicates: usize,
+    ) -> Self {
+        Self {
+            builder,
+            primitives,
+            pieces,
+            cell,
+            duplicates,
+            best: Splits::default(),
+            distances: Vec::new(),
+        }
+    }
+
+    pub(crate) fn run(mut self) -> Splits {
+        let [low, high] = self.pieces.bounds();
+        let local = self.builder.epsilon * (high - low).max_element();
+        let placement = RELATIVE_PLACEMENT * low.abs().max(high.abs()).max_element();
+        for axis in Axis::ALL {
+            self.sweep(axis, local.max(placement));
+        }
+        let hierarchy = SphereHierarchy::new(self.pieces);
+        let stride = self.stride();
+        for piece in (0..self.pieces.len()).step_by(stride) {
+            let primitive = &self.primitives[self.pieces.ids()[piece] as usize];
+            for plane in planes_of(primitive, local) {
+                let counts = hierarchy.count(&plane);
+                self.weigh(&plane, counts);
+            }
+        }
+        self.best
+    }
+
+    /// Every how many pieces one offers its planes. In the largest nodes fewer
+    /// than asked for do, so that planes that every piece is near cost no more
+    /// than a constant in all.
+    fn stride(&self) -> usize {
+        const MOST_TESTS: usize = 1 << 22;
+        let count = self.pieces.len();
+        match self.builder.sampled_primitives {
+            Some(limit) => count.div_ceil(limit.min(MOST_TESTS / count).max(1)),
+            None => 1,
+        }
+    }
+
+    /// Weighs the planes tangent to the pieces on one axis.
+    fn sweep(&mut self, axis: Axis, slack: f64) {
+        let ends = Ends::new(self.pieces, axis, slack);
+        for position in ends.positions() {
+            let plane = SplitPlane::axis_aligned(axis, position, slack);
+            let counts = ends.count(f64::from(position));
+            if self.builder.axis_aligned_nodes {
+                self.weigh(&plane, counts);
+            } else if let Some(plane) = plane.generalised() {
+                self.weigh(&plane, counts);
+            }
+        }
+    }
+
+    /// Keeps the plane if it is the best so far, planar pieces going where it is
+    /// cheaper.
+    fn weigh(&mut self, plane: &SplitPlane, counts: Counts) {
+        if counts.straddling > self.duplicates {
+            return;
+        }
+        let costs = &self.builder.costs;
+        let is_axis_aligned = plane.axis().is_some();
+        let (linear, fixed) = if is_axis_aligned {
+            (costs.axis_aligned, costs.axis_aligned)
+        } else {
+            (costs.linear_general(self.pieces.len()), costs.general)
+        };
+        let behind = counts.behind + counts.straddling;
+        let in_front = counts.in_front + counts.straddling;
+        // The parts have together at least the area of the whole.
+        let least = costs.intersection * behind.min(in_front) as f64;
+        if !self.may_improve(linear + least, fixed + least, is_axis_aligned) {
+            return;
+        }
+        let Some(areas) = self.cell.split_areas(plane, &mut self.distances) else {
+            return;
+        };
+        for planar_in_front in [false, true] {
+            if planar_in_front && counts.planar == 0 {
+                continue;
+            }
+            let mut sides = [behind, in_front];
+            sides[usize::from(planar_in_front)] += counts.planar;
+            let heuristic = costs.heuristic(0.0);
+            let children = heuristic
+                .of_node(self.cell.area(), self.pieces.len())
+                .split(areas, sides);
+            let split = |cost| Split {
+                plane: *plane,
+                planar_in_front,
+                straddling: counts.straddling,
+                cost,
+            };
+            keep_cheaper(&mut self.best.linear, split(linear + children));
+            keep_cheaper(&mut self.best.fixed, split(fixed + children));
+            if is_axis_aligned {
+                keep_cheaper(&mut self.best.axis_aligned, split(fixed + children));
+            }
+        }
+    }
+
+    fn may_improve(&self, linear: f64, fixed: f64, is_axis_aligned: bool) -> bool {
+        let improves = |best: &Option<Split>, cost: f64| best.is_none_or(|best| cost < best.cost);
+        improves(&self.best.linear, linear)
+            || improves(&self.best.fixed, fixed)
+            || (is_axis_aligned && improves(&self.best.axis_aligned, fixed))
+    }
+}
+
+fn keep_cheaper(best: &mut Option<Split>, split: Split) {
+    if best.is_none_or(|best| split.cost < best.cost) {
+        *best = Some(split);
+    }
+}
+
+/// The planes that a primitive offers, with at least the slack that its own
+/// place on them needs, and at least `local`.
+pub(crate) fn planes_of<P: Polygonal>(
+    primitive: &P,
+    local: f64,
+) -> impl Iterator<Item = SplitPlane> {
+    let bounds = primitive.bounds();
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let own = 4.0 * pad_of(primitive) + RELATIVE_PLACEMENT * f64::from(largest);
+    primitive.candidate_planes().filter_map(move |plane| {
+        let distance = |point: &_| plane.signed_distance(*point).abs();
+        let point = primitive
+            .vertices()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        SplitPlane::general(&plane, point, own.max(local))
+    })
+}
+
+/// Where the pieces begin and end along an axis, sorted: the counts on both
+/// sides of a position follow by looking it up.
+struct Ends {
+    /// The largest positions that have the piece in front.
+    starts: Vec<f64>,
+    /// The smallest positions that have the piece behind.
+    ends: Vec<f64>,
+    /// Middles of pieces thinner than the slack.
+    flats: Vec<f64>,
+    /// Where the pieces begin and end themselves.
+    positions: Vec<f32>,
+}
+
+impl Ends {
+    fn new(pieces: &Pieces, axis: Axis, slack: f64) -> Self {
+        let count = pieces.len();
+        let mut ends = Self {
+            starts: Vec::with_capacity(count),
+            ends: Vec::with_capacity(count),
+            flats: Vec::new(),
+            positions: Vec::with_capacity(2 * count),
+        };
+        for piece in 0..count {
+            let along = |corner: &accel_core::glam::DVec3| corner[axis.index()];
+            let corners = pieces.corners(piece).iter().map(along);
+            let unbounded = (f64::INFINITY, f64::NEG_INFINITY);
+            let (low, high) = corners.fold(unbounded, |(low, high), x| (low.min(x), high.max(x)));
+            let reach = slack - pieces.pad(piece);
+            let (start, end) = (low + reach, high - reach);
+            if start < end {
+                ends.starts.push(start);
+                ends.ends.push(end);
+                ends.positions.extend([low as f32, high as f32]);
+            } else {
+                let middle = (0.5 * (low + high)) as f32;
+                ends.starts.push(f64::from(middle));
+                ends.ends.push(f64::from(middle));
+                ends.flats.push(f64::from(middle));
+                ends.positions.push(middle);
+            }
+        }
+        for list in [&mut ends.starts, &mut ends.ends, &mut ends.flats] {
+            list.sort_unstable_by(f64::total_cmp);
+        }
+        ends.positions.sort_unstable_by(f32::total_cmp);
+        ends.positions.dedup();
+        ends
+    }
+
+    fn positions(&self) -> impl Iterator<Item = f32> {
+        self.positions.iter().copied()
+    }
+
+    fn count(&self, position: f64) -> Counts {
+        let total = self.starts.len();
+        let not_in_front = self.starts.partition_point(|&start| start < position);
+        let not_behind = total - self.ends.partition_point(|&end| end <= position);
+        let planar = self.flats.partition_point(|&flat| flat <= position)
+            - self.flats.partition_point(|&flat| flat < position);
+        let straddling = not_in_front + not_behind + planar - total;
+        Counts {
+            behind: not_in_front - straddling,
+            in_front: not_behind - straddling,
+            planar,
+            straddling,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Every variant on every scene family, against brute force.
+
+use accel_bsp::{BspBuilder, InvalidPrimitives, Triangle};
+use accel_core::testing::family_check::{Checked, Effort, check_families};
+
+fn check(effort: &Effort, builders: &[BspBuilder]) -> Checked {
+    let build = |triangles: &[Triangle]| {
+        let builds = builders.iter().map(|builder| {
+            let builder = BspBuilder {
+                invalid_primitives: InvalidPrimitives::Skip,
+                ..*builder
+            };
+            builder.build(triangles)
+        });
+        builds.collect()
+    };
+    check_families(effort, build).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const EFFORT: Effort = Effort {
+    seeds: 3,
+    triangles: 300,
+    rays: 200,
+    full_size_rays: 0,
+};
+
+#[test]
+fn every_variant_agrees_with_brute_force_on_every_family() {
+    let variants = [
+        BspBuilder::default(),
+        BspBuilder::original(),
+        BspBuilder::with_planar_leaves(),
+    ];
+    let checked = check(&EFFORT, &variants);
+    assert!(
+        checked.families >= 40 && checked.hits > 10_000,
+        "{checked:?}"
+    );
+}
+
+#[test]
+fn other_epsilons_and_the_exhaustive_search_agree_on_every_family() {
+    let part = Effort {
+        seeds: 1,
+        triangles: 150,
+        ..EFFORT
+    };
+    let tri = BspBuilder::with_planar_leaves();
+    let with_epsilon = |exponent: u32| BspBuilder {
+        epsilon: 1.0 / (1_u32 << exponent) as f64,
+        ..tri
+    };
+    let exhaustive = BspBuilder {
+        sampled_primitives: None,
+        ..tri
+    };
+    let settings = [with_epsilon(24), with_epsilon(14), exhaustive];
+    let checked = check(&part, &settings);
+    assert!(checked.hits > 2_000, "{checked:?}");
+}

@@ -1,0 +1,151 @@
+//! Settings, budgets, cancelling, empty scenes, determinism.
+
+use accel_bsp::{
+    AccelerationStructure, BspBuilder, BspCosts, BspTree, BuildBudget, BuildError, BuildObserver,
+    InvalidPrimitives, RaySegment, Triangle,
+};
+use accel_core::testing::families;
+
+fn scene(count: usize) -> Vec<Triangle> {
+    let family = families::find("soup-mixed-sizes").expect("the family is there");
+    family.scene(7, count)
+}
+
+#[test]
+fn an_empty_scene_has_a_tree_that_nothing_hits() {
+    let tree = BspBuilder::default().build::<Triangle>(&[]).unwrap();
+    let ray = RaySegment::new([0.0; 3], [1.0, 0.0, 0.0]);
+    assert_eq!((tree.bounds(), tree.closest_hit(&ray)), (None, None));
+}
+
+#[test]
+fn invalid_primitives_are_named_or_skipped() {
+    let mut triangles = scene(50);
+    triangles[7].b.y = f32::NAN;
+    let error = BspBuilder::default().build(&triangles).unwrap_err();
+    assert!(matches!(error, BuildError::InvalidPrimitive { id: 7, .. }));
+    let builder = BspBuilder {
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..BspBuilder::default()
+    };
+    assert_eq!(builder.build(&triangles).unwrap().skipped_count(), 1);
+}
+
+#[test]
+fn settings_out_of_range_are_named() {
+    let default = BspBuilder::default();
+    let with_costs = |costs| BspBuilder { costs, ..default };
+    let costs = BspCosts::default();
+    let cases = [
+        (
+            "epsilon",
+            BspBuilder {
+                epsilon: 0.0,
+                ..default
+            },
+        ),
+        (
+            "epsilon",
+            BspBuilder {
+                epsilon: f64::NAN,
+                ..default
+            },
+        ),
+        (
+            "sampled_primitives",
+            BspBuilder {
+                sampled_primitives: Some(0),
+                ..default
+            },
+        ),
+        (
+            "max_duplication",
+            BspBuilder {
+                max_duplication: -1.0,
+                ..default
+            },
+        ),
+        (
+            "alpha",
+            with_costs(BspCosts {
+                alpha: Some(f64::NAN),
+                ..costs
+            }),
+        ),
+        (
+            "intersection_cost",
+            with_costs(BspCosts {
+                intersection: 0.0,
+                ..costs
+            }),
+        ),
+        (
+            "traversal_cost",
+            with_costs(BspCosts {
+                general: -1.0,
+                ..costs
+            }),
+        ),
+    ];
+    for (name, builder) in cases {
+        let message = builder.build(&scene(10)).unwrap_err().to_string();
+        assert!(message.contains(name), "{message}");
+    }
+}
+
+#[test]
+fn budgets_bound_bytes_depth_and_references() {
+    let triangles = scene(2000);
+    let budget = |max_bytes, max_depth| BspBuilder {
+        budget: BuildBudget {
+            max_bytes,
+            max_depth,
+        },
+        ..BspBuilder::default()
+    };
+    let error = budget(Some(1000), 120).build(&triangles).unwrap_err();
+    assert!(matches!(
+        error,
+        BuildError::BudgetExceeded { limit: 1000, .. }
+    ));
+    assert_eq!(budget(None, 5).build(&triangles).unwrap().depth(), 5);
+    for max_duplication in [0.0, 0.5, 2.0] {
+        let builder = BspBuilder {
+            max_duplication,
+            ..BspBuilder::default()
+        };
+        let tree = builder.build(&triangles).unwrap();
+        let references = tree.outline().ids.len();
+        let limit = 2000 + (2000.0 * max_duplication) as usize;
+        assert!((2000..=limit).contains(&references), "{references}");
+    }
+}
+
+#[test]
+fn a_build_can_be_cancelled() {
+    struct Cancel;
+    impl BuildObserver for Cancel {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let result = BspBuilder::default().build_with(&scene(100), &Cancel);
+    assert_eq!(result.unwrap_err(), BuildError::Cancelled);
+}
+
+#[test]
+fn the_tree_does_not_depend_on_the_number_of_threads() {
+    let triangles = scene(5_000);
+    let in_pool = |threads| -> BspTree<Triangle> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| BspBuilder::default().build(&triangles))
+            .unwrap()
+    };
+    let one = in_pool(1);
+    for threads in [2, 5] {
+        assert!(one.has_same_nodes(&in_pool(threads)), "{threads} threads");
+    }
+}

@@ -1,0 +1,86 @@
+//! Saved trees come back the same, and damaged ones are refused.
+
+use accel_bsp::{
+    AccelerationStructure, BspBuilder, BspTree, InvalidPrimitives, LoadError, Triangle,
+};
+use accel_core::testing::{families, rays};
+
+fn scene(family: &str, count: usize) -> Vec<Triangle> {
+    families::find(family).expect(family).scene(3, count)
+}
+
+fn builder() -> BspBuilder {
+    BspBuilder {
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..BspBuilder::with_planar_leaves()
+    }
+}
+
+#[test]
+fn a_loaded_tree_has_the_same_bytes_and_answers() {
+    for family in ["soup-uniform", "nan-mixed", "one-point", "non-finite-all"] {
+        let triangles = scene(family, 300);
+        let tree = builder().build(&triangles).unwrap();
+        let bytes = tree.to_bytes();
+        let loaded = BspTree::from_bytes(&bytes, &triangles).unwrap();
+        assert_eq!(loaded.to_bytes(), bytes, "{family}");
+        assert_eq!(loaded.depth(), tree.depth());
+        for ray in rays::mixed(&triangles, 4, 500) {
+            assert_eq!(loaded.closest_hit(&ray), tree.closest_hit(&ray), "{ray:?}");
+            assert_eq!(loaded.all_hits(&ray), tree.all_hits(&ray), "{ray:?}");
+        }
+    }
+}
+
+#[test]
+fn a_tree_of_another_scene_is_refused() {
+    let triangles = scene("soup-uniform", 100);
+    let bytes = builder().build(&triangles).unwrap().to_bytes();
+    let error = BspTree::from_bytes(&bytes, &triangles[1..]).unwrap_err();
+    assert!(matches!(error, LoadError::WrongScene { .. }), "{error}");
+}
+
+/// The checksum (FNV-1a) of bytes, so that damage passes it and meets the checks
+/// behind it.
+fn checksum(bytes: &[u8]) -> [u8; 8] {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step).to_le_bytes()
+}
+
+#[test]
+fn random_damage_is_a_typed_error_or_a_tree_that_still_answers() {
+    let triangles = scene("soup-uniform", 24);
+    let bytes = builder().build(&triangles).unwrap().to_bytes();
+    let rays = rays::mixed(&triangles, 4, 4);
+    let content = bytes.len() - 8;
+    let mut state = 1_u64;
+    let mut random = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as usize % below
+    };
+    let (mut refused, mut loaded) = (0, 0);
+    for round in 0..100_000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..1 + random(3) {
+            damaged[random(content)] ^= 1 << random(8);
+        }
+        let is_resigned = round % 4 != 0;
+        if is_resigned {
+            let sum = checksum(&damaged[..content]);
+            damaged[content..].copy_from_slice(&sum);
+        }
+        match BspTree::from_bytes(&damaged, &triangles) {
+            Err(_) => refused += 1,
+            Ok(tree) => {
+                loaded += 1;
+                for ray in &rays {
+                    tree.closest_hit(ray);
+                    tree.all_hits(ray);
+                }
+            }
+        }
+    }
+    assert!(refused > 25_000 && loaded > 0, "{refused} {loaded}");
+}
