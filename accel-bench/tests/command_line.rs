@@ -36,7 +36,13 @@ const QUICK: [&str; 5] = ["--size", "24x16", "--rounds", "2", "--report"];
 #[test]
 fn compare_writes_a_verified_report_in_every_form() {
     let folder = tempfile::tempdir().unwrap();
-    let mut arguments = vec!["compare", "cylinder", "room", "--structures", "all"];
+    let mut arguments = vec![
+        "compare",
+        "cylinder",
+        "room",
+        "--structures",
+        "bvh-sweep,sbvh",
+    ];
     arguments.extend(["--rays", "primary,shadow,ao,path,random,transparent"]);
     arguments.extend(["--json", "figures.json", "--csv", "figures.csv"]);
     arguments.extend(QUICK);
