@@ -204,6 +204,7 @@ fn three_ways<'a>(
 
 /// Times relative to the first way: of each round, in which each way has its
 /// turn and another goes first every time.
+#[expect(clippy::print_stdout, reason = "criterion prints here too")]
 fn print_interleaved_ratios(ways: &[Way<'_>; 3]) {
     let rounds: Vec<[f64; 3]> = (0..ROUNDS)
         .map(|round| {
