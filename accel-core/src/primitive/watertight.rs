@@ -57,7 +57,7 @@ impl Sheared {
 
 /// Twice the signed areas of the triangles that the ray makes with the edges
 /// opposite to the first, second and third vertex.
-#[inline]
+#[inline(always)]
 fn edge_functions<T>([a, b, c]: [(T, T); 3]) -> [T; 3]
 where
     T: Copy + std::ops::Mul<Output = T> + std::ops::Sub<Output = T>,
@@ -179,24 +179,30 @@ pub(crate) fn packet_candidates<L: Lanes>(
 
 #[inline(always)]
 fn candidates_along<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertices: [Vec3; 3]) -> u32 {
-    let relative = |vertex: Vec3, axis: usize| L::splat(vertex[axis]) - rays.origin[axis];
-    let edges = edge_functions(vertices.map(|vertex| {
-        let along = relative(vertex, MAIN);
-        (
-            relative(vertex, (MAIN + 1) % 3) - rays.shear[0] * along,
-            relative(vertex, (MAIN + 2) % 3) - rays.shear[1] * along,
-        )
-    }));
+    let [a, b, c] = vertices;
+    let edges = edge_functions([
+        sheared_lanes::<L, MAIN>(rays, a),
+        sheared_lanes::<L, MAIN>(rays, b),
+        sheared_lanes::<L, MAIN>(rays, c),
+    ]);
     // An edge function that is NaN has no sign.
     let zero = L::splat(0.0);
-    let smallest = edges
-        .iter()
-        .fold(zero, |least, &edge| least.min_or_keep(edge));
-    let largest = edges
-        .iter()
-        .fold(zero, |most, &edge| most.max_or_keep(edge));
+    let [u, v, w] = edges;
+    let smallest = zero.min_or_keep(u).min_or_keep(v).min_or_keep(w);
+    let largest = zero.max_or_keep(u).max_or_keep(v).max_or_keep(w);
     let both_signs = smallest.lt_mask(zero) & zero.lt_mask(largest);
     !both_signs & L::ALL
+}
+
+/// What [`Sheared::new`] computes, across the main axis.
+#[inline(always)]
+fn sheared_lanes<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertex: Vec3) -> (L, L) {
+    let (x, y) = ((MAIN + 1) % 3, (MAIN + 2) % 3);
+    let along = L::splat(vertex[MAIN]) - rays.origin[MAIN];
+    (
+        (L::splat(vertex[x]) - rays.origin[x]) - rays.shear[0] * along,
+        (L::splat(vertex[y]) - rays.origin[y]) - rays.shear[1] * along,
+    )
 }
 
 #[cfg(test)]

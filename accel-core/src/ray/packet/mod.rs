@@ -112,10 +112,10 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
     /// The largest `t_max` of all rays.
     #[inline(always)]
     pub fn farthest(&self) -> f32 {
-        let [first, others @ ..] = &self.t_max[..] else {
-            return f32::NEG_INFINITY;
-        };
-        let most = others.iter().fold(*first, |most, &t| most.max_or_keep(t));
+        let mut most = L::splat(f32::NEG_INFINITY);
+        for &t_max in &self.t_max {
+            most = most.max_or_keep(t_max);
+        }
         most.lanes()
             .iter()
             .fold(f32::NEG_INFINITY, |a, &b| a.max(b))

@@ -21,14 +21,20 @@ impl<L: Lanes> RayLanes<L> {
     /// `ray` in every lane.
     #[inline(always)]
     pub(super) fn splat(ray: &PreparedRay) -> Self {
-        let shear = ray.shear();
-        Self {
-            origin: ray.origin().to_array().map(L::splat),
-            near_reciprocal: ray.near_reciprocal().to_array().map(L::splat),
-            far_reciprocal: ray.far_reciprocal().to_array().map(L::splat),
+        let zero = L::splat(0.0);
+        let mut lanes = Self {
+            origin: [zero; 3],
+            near_reciprocal: [zero; 3],
+            far_reciprocal: [zero; 3],
             t_min: L::splat(ray.t_min()),
-            shear: [L::splat(shear.x), L::splat(shear.y)],
+            shear: [L::splat(ray.shear().x), L::splat(ray.shear().y)],
+        };
+        for axis in 0..3 {
+            lanes.origin[axis] = L::splat(ray.origin()[axis]);
+            lanes.near_reciprocal[axis] = L::splat(ray.near_reciprocal()[axis]);
+            lanes.far_reciprocal[axis] = L::splat(ray.far_reciprocal()[axis]);
         }
+        lanes
     }
 
     /// Puts `ray` into `lane`.
