@@ -13,9 +13,11 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use accel_bvh::accel_core::simd::SimdLevel;
 use accel_bvh::glam::Vec3;
 use accel_bvh::{
-    AccelerationStructure, Bvh, BvhBuilder, Hit, ObjectSplit, PacketTraversal, RaySegment, Triangle,
+    AccelerationStructure, Bvh, BvhBuilder, ClosestHit, Hit, ObjectSplit, PacketTraversal,
+    RaySegment, TraversalCounters, Triangle,
 };
 
 const SIDE: usize = 512;
@@ -32,8 +34,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let bvh = builder.build(&triangles)?;
         let rows = primary_rays(&bvh);
-        compare("tiles", &bvh, &tiles(&rows));
+        let tiles = tiles(&rows);
+        compare("tiles", &bvh, &tiles);
         compare("rows", &bvh, &rows);
+        count::<1>(&bvh, &tiles);
+        count::<4>(&bvh, &tiles);
+        count::<8>(&bvh, &tiles);
+        count::<16>(&bvh, &tiles);
+        count::<64>(&bvh, &tiles);
     }
     Ok(())
 }
@@ -73,6 +81,28 @@ fn compare(order: &str, bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
         print!("  {name}: {:.2}x", median(ratios));
     }
     println!();
+}
+
+/// What packets of `N` do, by ray: a packet that visits a node visits it once,
+/// and a vector that is tested against a box is tested once.
+fn count<const N: usize>(bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
+    let mut counters = TraversalCounters::default();
+    let level = SimdLevel::detect();
+    PacketTraversal::<N>::query_packets(
+        bvh,
+        level,
+        rays,
+        &mut counters,
+        ClosestHit::new,
+        |_, _| (),
+    );
+    println!(
+        "  packets of {N:2}: per ray {:.2} nodes, {:.2} of them leaves, {:.2} box tests, {:.2} triangles",
+        counters.mean(&counters.nodes),
+        counters.mean(&counters.leaves),
+        counters.mean(&counters.box_tests),
+        counters.mean(&counters.primitive_tests),
+    );
 }
 
 #[inline(never)]
