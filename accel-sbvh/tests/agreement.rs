@@ -13,8 +13,8 @@ use proptest::prelude::*;
 
 /// Enough for a setting that shares its search with one that is checked in full.
 const PART: Effort = Effort {
-    seeds: 4,
-    triangles: 400,
+    seeds: 3,
+    triangles: 300,
     rays: 150,
     full_size_rays: 0,
 };
