@@ -5,7 +5,8 @@
 //! cargo run --release -p accel-bvh --example packets -- bunny.obj
 //! ```
 //!
-//! One thread answers the rays in tiles of 8 by 8 pixels, and again row by row;
+//! One thread answers the rays in tiles of 8 by 8 pixels, again row by row, and
+//! as many rays between random points around the scene, which share nothing;
 //! single rays and packets of every width take turns of a few thousand rays.
 //! Ratios are medians over all turns. Every hit is compared, bit for bit.
 #![allow(clippy::print_stdout)]
@@ -19,6 +20,8 @@ use accel_bvh::{
     AccelerationStructure, Bvh, BvhBuilder, ClosestHit, Hit, ObjectSplit, PacketTraversal,
     RaySegment, TraversalCounters, Triangle,
 };
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 const SIDE: usize = 512;
 const ROUNDS: usize = 5;
@@ -37,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let tiles = tiles(&rows);
         compare("tiles", &bvh, &tiles);
         compare("rows", &bvh, &rows);
+        compare("random", &bvh, &random_rays(&bvh));
         count::<1>(&bvh, &tiles);
         count::<4>(&bvh, &tiles);
         count::<8>(&bvh, &tiles);
@@ -144,6 +148,24 @@ fn primary_rays(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
     let rays = (0..SIDE * SIDE).map(|index| {
         let (x, y) = (pixel(index % SIDE), pixel(index / SIDE));
         RaySegment::new(eye, forward + right * x - up * y)
+    });
+    rays.collect()
+}
+
+/// Rays between random points of the sphere around the scene.
+fn random_rays(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let bounds = bvh.bounds().expect("the scene is not empty");
+    let radius = 0.5 * (bounds.max - bounds.min).length();
+    let mut point = || loop {
+        let point = Vec3::from([0; 3].map(|_| random.random_range(-1.0..1.0_f32)));
+        if (0.01..1.0).contains(&point.length()) {
+            break bounds.center() + radius * point.normalize();
+        }
+    };
+    let rays = (0..SIDE * SIDE / 4).map(|_| {
+        let (from, to) = (point(), point());
+        RaySegment::new(from, to - from)
     });
     rays.collect()
 }
