@@ -1,5 +1,7 @@
 //! Checks that a tree can't lose a hit.
 
+use accel_core::geometry::rounding;
+use accel_core::glam::Vec3;
 use accel_core::layout::LeafStorage;
 use accel_core::structure::AccelerationStructure;
 use accel_core::{Aabb, Clip, ValidationError};
@@ -50,10 +52,10 @@ impl<P: Clip> KdTree<P> {
 
     /// Every leaf with part of the primitive well inside references it.
     fn validate_primitive(&self, id: u32, primitive: &P) -> Result<(), ValidationError> {
-        let rim = -2.0 * displacement_of(primitive).max(self.slack.0);
+        let rim = 2.0 * displacement_of(primitive).max(self.slack.0);
         let mut result = Ok(());
         self.walk(|index, cell, _| {
-            let inside = cell.padded(rim);
+            let inside = shrunk(cell, rim);
             let is_met = !inside.is_empty() && primitive.clip(&inside).is_some();
             if let (true, Some(leaf)) = (is_met, self.nodes[index as usize].as_leaf())
                 && !self.leaf_holds(leaf, id)
@@ -72,6 +74,18 @@ impl<P: Clip> KdTree<P> {
             Leaf::Empty => false,
             Leaf::Of(leaf) => self.stored.leaves().leaf_ids(leaf).any(|held| held == id),
         }
+    }
+}
+
+/// The cell without a rim of this width, and at least of one unit in the last
+/// place; perhaps empty.
+fn shrunk(cell: &Aabb, rim: f64) -> Aabb {
+    let (low, high) = (cell.min.as_dvec3() + rim, cell.max.as_dvec3() - rim);
+    let next_up = Vec3::from_array(cell.min.to_array().map(f32::next_up));
+    let next_down = Vec3::from_array(cell.max.to_array().map(f32::next_down));
+    Aabb {
+        min: rounding::vec3_up(low).max(next_up),
+        max: rounding::vec3_down(high).min(next_down),
     }
 }
 
