@@ -20,8 +20,8 @@ use accel_bvh::{Bvh, BvhBuilder, ObjectSplit};
 use accel_core::testing::mesh_file;
 use accel_kdtree::glam::Vec3;
 use accel_kdtree::{
-    Aabb, AccelerationStructure, KdTree, KdTreeBuilder, PlaneSearch, Primitive, RaySegment,
-    SurfaceAreaHeuristic, Termination, TraversalCounters, Triangle,
+    Aabb, AccelerationStructure, BuildError, KdTree, KdTreeBuilder, PlaneSearch, Primitive,
+    RaySegment, SurfaceAreaHeuristic, Termination, TraversalCounters, Triangle,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -41,10 +41,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{path}: {} triangles, camera {eye:?}", triangles.len());
     // One thread, so that builders are compared by what they do.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    pool.install(|| compare(&triangles, eye))
+    Ok(pool.install(|| compare(&triangles, eye))?)
 }
 
-fn compare(triangles: &[Triangle], camera: [f32; 7]) -> Result<(), Box<dyn Error>> {
+fn compare(triangles: &[Triangle], camera: [f32; 7]) -> Result<(), BuildError> {
     let builder = BvhBuilder {
         object_split: ObjectSplit::FullSweep,
         ..BvhBuilder::default()
