@@ -172,3 +172,76 @@ impl Crossing {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{InvalidPrimitives, KdTreeBuilder};
+    use accel_core::testing::agreement::oracle;
+    use accel_core::testing::{families, rays};
+    use accel_core::{AccelerationStructure, ClosestHit, Ray, RaySegment, Triangle};
+
+    /// How many closest hits are answered differently from brute force, with
+    /// this much of the tolerance.
+    fn disagreements(scene: &[Triangle], rays: &[RaySegment], slack: f64, relative: f32) -> usize {
+        let builder = KdTreeBuilder {
+            invalid_primitives: InvalidPrimitives::Skip,
+            ..KdTreeBuilder::default()
+        };
+        let tree = builder.build(scene).unwrap();
+        let oracle = oracle(scene).unwrap();
+        let whole = tree.tolerance();
+        let tolerance = Tolerance {
+            slack: Slack(whole.slack.0 * slack),
+            relative: whole.relative * relative,
+        };
+        let closest = |ray: &RaySegment| {
+            let ray = PreparedRay::new(ray)?;
+            let mut query = ClosestHit::new(&ray);
+            traverse(&tree, &ray, &mut query, &mut (), &tolerance);
+            query.best()
+        };
+        let differs = |ray: &&RaySegment| closest(ray) != oracle.closest_hit(*ray);
+        rays.iter().filter(differs).count()
+    }
+
+    /// Scenes with primitives in planes and at points, seen from near and from far.
+    fn all_disagreements(slack: f64, relative: f32) -> usize {
+        let names = [
+            "closed-icosphere",
+            "layers-one-ulp-apart",
+            "closed-room-of-strips",
+            "integer-soup",
+            "anisotropic",
+            "one-point-neighbours",
+        ];
+        let count = |name| {
+            let scene = families::find(name).expect(name).scene(3, 400);
+            let near = rays::mixed(&scene, 5, 4000);
+            let away = |ray: &RaySegment, distance: f32| {
+                let (origin, direction) = (ray.origin(), ray.direction());
+                RaySegment::new(origin - direction * distance, direction)
+            };
+            let far = near.iter().map(|ray| away(ray, 1e3));
+            let very_far = near.iter().map(|ray| away(ray, 1e5));
+            let rays: Vec<RaySegment> = near.iter().copied().chain(far).chain(very_far).collect();
+            disagreements(&scene, &rays, slack, relative)
+        };
+        names.into_iter().map(count).sum()
+    }
+
+    #[test]
+    fn no_hit_is_lost_with_the_whole_tolerance() {
+        assert_eq!(all_disagreements(1.0, 1.0), 0);
+    }
+
+    #[test]
+    fn hits_are_lost_without_the_slack() {
+        assert!(all_disagreements(0.0, 1.0) > 0);
+    }
+
+    #[test]
+    fn hits_are_lost_without_the_relative_part() {
+        assert!(all_disagreements(1.0, 0.0) > 0);
+    }
+}

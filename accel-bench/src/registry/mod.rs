@@ -3,6 +3,7 @@
 mod bsp;
 mod bvh;
 mod dualsplit;
+mod kdtree;
 mod sbvh;
 
 use accel_core::layout::TriangleBlocks;
@@ -61,6 +62,7 @@ static BRUTE_FORCE: &[Row] = &[Row {
 static ROWS: &[&[Row]] = &[
     bvh::ROWS,
     sbvh::ROWS,
+    kdtree::ROWS,
     bsp::ROWS,
     dualsplit::ROWS,
     BRUTE_FORCE,
