@@ -101,7 +101,7 @@ impl<'a, P: Clip> Splitting<'a, P> {
         }
     }
 
-    fn children(&self, task: Task, plane: &Plane, bad_refines: u32, work: &mut Work) -> [Task; 2] {
+    fn children(&self, task: &Task, plane: &Plane, bad_refines: u32, work: &mut Work) -> [Task; 2] {
         let cells = plane.halves(&task.cell);
         let (parts, events) = match &task.events {
             Some(events) => {
@@ -159,7 +159,7 @@ impl<P: Clip> TopDown for Splitting<'_, P> {
         let division = match split {
             Some((plane, bad_refines)) => Division::Inner {
                 node: plane,
-                children: self.children(task, &plane, bad_refines, &mut work),
+                children: self.children(&task, &plane, bad_refines, &mut work),
             },
             None => {
                 leaf.extend(task.parts.iter().map(|part| part.id));
