@@ -53,6 +53,7 @@ mod layout;
 mod leaf_rule;
 mod node;
 mod node_rules;
+mod packet;
 mod reading;
 mod refit;
 mod sweep;
@@ -71,7 +72,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment,
-    RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    ClosestHit, Filtered, Hit, InPackets, InvalidPrimitives, PacketTraversal, PreparedRay,
+    Primitive, Query, Ray, RaySegment, RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters,
+    TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -6,7 +6,9 @@ use std::ops::ControlFlow;
 use crate::geometry::Aabb;
 use crate::primitive::{Intersection, Primitive};
 use crate::query::{Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::packet::lanes_of;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 
 /// Intersects `primitive` and offers the hit, if there is one: the body of every
 /// leaf's loop.
@@ -21,6 +23,48 @@ pub fn offer_primitive<P: Primitive, Q: Query>(
         Some(intersection) => offer_intersection(intersection, id, &primitive.bounds(), ray, query),
         None => ControlFlow::Continue(()),
     }
+}
+
+/// As [`offer_primitive`], for the rays of a vector that are in `mask`; yields
+/// those of them whose queries go on.
+#[inline(always)]
+pub fn offer_primitive_packet<P: Primitive, L: Lanes, Q: Query>(
+    primitive: &P,
+    id: u32,
+    mask: u32,
+    rays: &mut PacketVector<'_, L>,
+    queries: &mut [Q],
+) -> u32 {
+    let candidates = primitive.packet_candidates(rays.lanes, rays.shared) & mask;
+    if candidates == 0 {
+        return mask;
+    }
+    mask & !offer_candidates(primitive, id, candidates, rays, queries)
+}
+
+/// Decides the candidates one by one; yields those whose queries break.
+#[inline(never)]
+fn offer_candidates<P: Primitive, L: Lanes, Q: Query>(
+    primitive: &P,
+    id: u32,
+    candidates: u32,
+    rays: &mut PacketVector<'_, L>,
+    queries: &mut [Q],
+) -> u32 {
+    let mut answered = 0;
+    for lane in lanes_of(candidates) {
+        let (Some(ray), query) = (rays.ray(lane), &mut queries[lane]) else {
+            continue;
+        };
+        match offer_primitive(primitive, id, ray, query) {
+            ControlFlow::Continue(()) => rays.shorten(lane, query.t_max()),
+            ControlFlow::Break(()) => {
+                rays.retire(lane);
+                answered |= 1 << lane;
+            }
+        }
+    }
+    answered
 }
 
 /// Offers `intersection` of the primitive `id`, whose box is `bounds`, to

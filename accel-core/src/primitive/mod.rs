@@ -12,6 +12,8 @@ use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, Side};
 use crate::layout::LeafStorage;
 use crate::query::Hit;
 use crate::ray::PreparedRay;
+use crate::ray::packet::{RayLanes, SharedFacts};
+use crate::simd::Lanes;
 
 pub use mesh::{MeshError, triangles_of_mesh};
 pub use sphere::Sphere;
@@ -50,6 +52,17 @@ pub trait Primitive: Clone + Send + Sync {
     /// The first intersection with `t >= ray.t_min()`, if there is any. A
     /// result with a NaN or infinite `t`, `u` or `v` counts as a miss.
     fn intersect(&self, ray: &PreparedRay) -> Option<Intersection>;
+
+    /// Of the rays of a vector, those that may hit: a bit per lane, the first
+    /// lane lowest, clear only where [`intersect`](Self::intersect) certainly
+    /// finds nothing. It decides the others.
+    ///
+    /// The default keeps all. An override makes packets fast; it must be
+    /// `#[inline(always)]`, so that it uses the vectors of the machine.
+    #[inline(always)]
+    fn packet_candidates<L: Lanes>(&self, _rays: &RayLanes<L>, _shared: &SharedFacts) -> u32 {
+        L::ALL
+    }
 
     /// The unit vector orthogonal to the surface at `point`, where `hit` lies,
     /// towards its front; zero where there is none.

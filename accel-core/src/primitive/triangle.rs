@@ -7,7 +7,9 @@ use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, rounding};
 use crate::layout::LeafOrdered;
 use crate::query::Hit;
 use crate::ray::PreparedRay;
+use crate::ray::packet::{RayLanes, SharedFacts};
 use crate::reference::{chop_polygon, clip_polygon, clip_polygon_corners};
+use crate::simd::Lanes;
 
 /// A triangle with corners `a`, `b`, `c`. The point of a hit with barycentric
 /// coordinates `u`, `v` is `(1 - u - v) a + u b + v c`.
@@ -67,6 +69,11 @@ impl Primitive for Triangle {
     #[inline]
     fn intersect(&self, ray: &PreparedRay) -> Option<Intersection> {
         watertight::intersect(ray, self.vertices())
+    }
+
+    #[inline(always)]
+    fn packet_candidates<L: Lanes>(&self, rays: &RayLanes<L>, shared: &SharedFacts) -> u32 {
+        watertight::packet_candidates(rays, shared, self.vertices())
     }
 
     fn geometric_normal(&self, _: &Hit, _: Vec3) -> Vec3 {

@@ -17,7 +17,10 @@
 use glam::Vec3;
 
 use super::Intersection;
+use crate::geometry::Axis;
+use crate::ray::packet::{RayLanes, SharedFacts};
 use crate::ray::{PreparedRay, Shear};
+use crate::simd::Lanes;
 
 /// Where `ray` meets the triangle, edges and corners included.
 #[inline]
@@ -54,7 +57,7 @@ impl Sheared {
 
 /// Twice the signed areas of the triangles that the ray makes with the edges
 /// opposite to the first, second and third vertex.
-#[inline]
+#[inline(always)]
 fn edge_functions<T>([a, b, c]: [(T, T); 3]) -> [T; 3]
 where
     T: Copy + std::ops::Mul<Output = T> + std::ops::Sub<Output = T>,
@@ -156,10 +159,58 @@ impl LaneTest {
     }
 }
 
+/// The kernel's test of the rays of a vector against one triangle, as far as it
+/// can reject: a bit per lane, clear where the ray certainly misses. Lanes that
+/// it keeps are decided by [`intersect`]. Rays that differ in their main axis
+/// are all kept.
+#[inline(always)]
+pub(crate) fn packet_candidates<L: Lanes>(
+    rays: &RayLanes<L>,
+    shared: &SharedFacts,
+    vertices: [Vec3; 3],
+) -> u32 {
+    match shared.shear_axis {
+        Some(Axis::X) => candidates_along::<L, 0>(rays, vertices),
+        Some(Axis::Y) => candidates_along::<L, 1>(rays, vertices),
+        Some(Axis::Z) => candidates_along::<L, 2>(rays, vertices),
+        None => L::ALL,
+    }
+}
+
+#[inline(always)]
+fn candidates_along<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertices: [Vec3; 3]) -> u32 {
+    let [a, b, c] = vertices;
+    let edges = edge_functions([
+        sheared_lanes::<L, MAIN>(rays, a),
+        sheared_lanes::<L, MAIN>(rays, b),
+        sheared_lanes::<L, MAIN>(rays, c),
+    ]);
+    // An edge function that is NaN has no sign.
+    let zero = L::splat(0.0);
+    let [u, v, w] = edges;
+    let smallest = zero.min_or_keep(u).min_or_keep(v).min_or_keep(w);
+    let largest = zero.max_or_keep(u).max_or_keep(v).max_or_keep(w);
+    let both_signs = smallest.lt_mask(zero) & zero.lt_mask(largest);
+    !both_signs & L::ALL
+}
+
+/// What [`Sheared::new`] computes, across the main axis.
+#[inline(always)]
+fn sheared_lanes<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertex: Vec3) -> (L, L) {
+    let (x, y) = ((MAIN + 1) % 3, (MAIN + 2) % 3);
+    let along = L::splat(vertex[MAIN]) - rays.origin[MAIN];
+    (
+        (L::splat(vertex[x]) - rays.origin[x]) - rays.shear[0] * along,
+        (L::splat(vertex[y]) - rays.origin[y]) - rays.shear[1] * along,
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ray::RaySegment;
+    use crate::ray::{RayPacket, RaySegment};
+    use crate::simd::F32x4;
+    use crate::testing::{families, rays};
 
     fn hit(origin: [f32; 3], direction: [f32; 3], vertices: [[f32; 3]; 3]) -> Option<Intersection> {
         let ray = PreparedRay::new(&RaySegment::new(origin, direction))?;
@@ -228,5 +279,35 @@ mod tests {
         }
         vertices[1][0][5] = f32::NAN;
         assert_eq!(test.candidates(&vertices) & 0b1101_1111, 1);
+    }
+
+    #[test]
+    fn a_packet_keeps_the_lanes_that_the_scalar_test_keeps() {
+        let scene = families::find("axis-grid").unwrap().scene(1, 300);
+        let rays: Vec<_> = rays::mixed(&scene, 7, 400)
+            .iter()
+            .map(PreparedRay::new)
+            .collect();
+        let mut kept = 0;
+        for rays in rays.chunks(4) {
+            let Some(packet) = RayPacket::<F32x4, 1>::new(rays, |_| 1.0) else {
+                continue;
+            };
+            for triangle in &scene {
+                let mask = packet_candidates(packet.lanes(0), packet.shared(), triangle.vertices());
+                for (lane, ray) in rays.iter().enumerate() {
+                    let Some(ray) = ray else { continue };
+                    let sheared = triangle
+                        .vertices()
+                        .map(|vertex| Sheared::new(vertex - ray.origin(), ray.shear()));
+                    let edges = edge_functions(sheared.map(|vertex| (vertex.x, vertex.y)));
+                    let is_kept = mask >> lane & 1 == 1;
+                    let is_shared = packet.shared().shear_axis.is_some();
+                    assert_eq!(is_kept, !has_both_signs(edges) || !is_shared, "{ray:?}");
+                    kept += usize::from(is_kept && is_shared);
+                }
+            }
+        }
+        assert!(kept > 100, "{kept}");
     }
 }

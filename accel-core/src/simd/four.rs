@@ -4,8 +4,11 @@
 //! default build uses them without any detection. Elsewhere they are arrays,
 //! with the same results bit for bit.
 
+use super::Lanes;
+
 /// Four `f32`. Operations are lane by lane, in IEEE single precision.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct F32x4(lanes::Lanes);
 
 impl F32x4 {
@@ -58,6 +61,47 @@ impl F32x4 {
     #[inline(always)]
     pub fn first_two(self) -> [f32; 2] {
         lanes::first_two(self.0)
+    }
+}
+
+#[allow(unsafe_code)]
+impl Lanes for F32x4 {
+    const COUNT: usize = 4;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self::splat(value)
+    }
+    #[inline(always)]
+    fn from_slice(values: &[f32]) -> Self {
+        let values = &values[..4];
+        Self::new(values[0], values[1], values[2], values[3])
+    }
+    #[inline(always)]
+    fn lanes(&self) -> &[f32] {
+        // SAFETY: a vector in memory is its lanes, side by side.
+        unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 4) }
+    }
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f32] {
+        // SAFETY: as above, and every bit pattern is a lane.
+        unsafe { std::slice::from_raw_parts_mut((&raw mut *self).cast(), 4) }
+    }
+    #[inline(always)]
+    fn max_or_keep(self, other: Self) -> Self {
+        self.max_or_keep(other)
+    }
+    #[inline(always)]
+    fn min_or_keep(self, other: Self) -> Self {
+        self.min_or_keep(other)
+    }
+    #[inline(always)]
+    fn le_mask(self, other: Self) -> u32 {
+        self.le_mask(other)
+    }
+    #[inline(always)]
+    fn lt_mask(self, other: Self) -> u32 {
+        lanes::lt_mask(self.0, other.0)
     }
 }
 
@@ -136,6 +180,11 @@ mod lanes {
         unsafe { sse::_mm_movemask_ps(sse::_mm_cmple_ps(a, b)) as u32 }
     }
     #[inline(always)]
+    pub fn lt_mask(a: Lanes, b: Lanes) -> u32 {
+        // SAFETY: as above.
+        unsafe { sse::_mm_movemask_ps(sse::_mm_cmplt_ps(a, b)) as u32 }
+    }
+    #[inline(always)]
     pub fn to_array(a: Lanes) -> [f32; 4] {
         let mut array = [0.0; 4];
         // SAFETY: as above, and the array has room for four lanes.
@@ -193,6 +242,12 @@ mod lanes {
     pub fn le_mask(a: Lanes, b: Lanes) -> u32 {
         (0..4)
             .map(|lane| u32::from(a[lane] <= b[lane]) << lane)
+            .sum()
+    }
+    #[inline(always)]
+    pub fn lt_mask(a: Lanes, b: Lanes) -> u32 {
+        (0..4)
+            .map(|lane| u32::from(a[lane] < b[lane]) << lane)
             .sum()
     }
     #[inline(always)]
