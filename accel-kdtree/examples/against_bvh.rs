@@ -9,7 +9,9 @@
 //! The camera is given by where it stands, what it looks at, and its vertical
 //! field of view in degrees; without one it looks at the whole mesh along -z.
 //! Primary rays, then diffuse paths of up to five bounces from them; structures
-//! take turns, and ratios are medians over all turns.
+//! take turns, and ratios are medians over all turns. Primary rays come in blocks
+//! of 4 by 2 pixels, and the packets of both structures are held against their
+//! single rays.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
@@ -20,8 +22,8 @@ use accel_bvh::{Bvh, BvhBuilder, ObjectSplit};
 use accel_core::testing::mesh_file;
 use accel_kdtree::glam::Vec3;
 use accel_kdtree::{
-    Aabb, AccelerationStructure, BuildError, KdTree, KdTreeBuilder, PlaneSearch, Primitive,
-    RaySegment, SurfaceAreaHeuristic, Termination, TraversalCounters, Triangle,
+    Aabb, AccelerationStructure, BuildError, KdTree, KdTreeBuilder, PacketTraversal, PlaneSearch,
+    Primitive, RaySegment, SurfaceAreaHeuristic, Termination, TraversalCounters, Triangle,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -71,6 +73,8 @@ fn compare(triangles: &[Triangle], camera: [f32; 7]) -> Result<(), BuildError> {
         }
         print_times(kind, &bvh, &trees, rays);
     }
+    print_packets("bvh-sweep", &bvh, &primary);
+    print_packets(trees[0].0, &trees[0].1, &primary);
     Ok(())
 }
 
@@ -195,6 +199,42 @@ fn print_times(
     }
 }
 
+/// Speed of packets against single rays.
+fn print_packets<A>(name: &str, structure: &A, rays: &[RaySegment])
+where
+    A: PacketTraversal<4> + PacketTraversal<8> + PacketTraversal<16>,
+{
+    let mut ratios = [const { Vec::new() }; 3];
+    for rays in (0..2 * ROUNDS).flat_map(|_| rays.chunks(TURN)) {
+        let single = answer(structure, rays);
+        let times = [
+            answer_in_packets::<4, A>(structure, rays),
+            answer_in_packets::<8, A>(structure, rays),
+            answer_in_packets::<16, A>(structure, rays),
+        ];
+        for (ratios, time) in ratios.iter_mut().zip(times) {
+            ratios.push(single / time);
+        }
+    }
+    let [four, eight, sixteen] = ratios.map(median);
+    println!("packets  {name:13} of 4: {four:.2}x, of 8: {eight:.2}x, of 16: {sixteen:.2}x");
+}
+
+#[inline(never)]
+fn answer_in_packets<const N: usize, A: PacketTraversal<N>>(
+    structure: &A,
+    rays: &[RaySegment],
+) -> f64 {
+    let mut hits = vec![None; rays.len()];
+    let (time, ()) = timed(|| structure.trace_closest_packets(rays, &mut hits));
+    let is_single = |(ray, hit)| structure.closest_hit(ray) == hit;
+    assert!(
+        rays.iter().zip(hits).all(is_single),
+        "packets of {N} disagree"
+    );
+    time
+}
+
 /// Milliseconds for all rays.
 #[inline(never)]
 fn answer(structure: &impl AccelerationStructure, rays: &[RaySegment]) -> f64 {
@@ -236,7 +276,8 @@ fn in_front_of(triangles: &[Triangle]) -> [f32; 7] {
     [at.x, at.y, at.z + distance, at.x, at.y, at.z, 40.0]
 }
 
-/// One ray through the middle of every pixel of a square image.
+/// One ray through the middle of every pixel of a square image, in tiles of 8 by
+/// 8 pixels and of these in blocks of 4 by 2.
 fn primary_rays([x, y, z, at_x, at_y, at_z, degrees]: [f32; 7]) -> Vec<RaySegment> {
     let eye = Vec3::new(x, y, z);
     let forward = (Vec3::new(at_x, at_y, at_z) - eye).normalize();
@@ -244,7 +285,12 @@ fn primary_rays([x, y, z, at_x, at_y, at_z, degrees]: [f32; 7]) -> Vec<RaySegmen
     let up = right.cross(forward);
     let half = (degrees.to_radians() / 2.0).tan();
     let offset = |pixel: usize| ((pixel as f32 + 0.5) / IMAGE as f32 * 2.0 - 1.0) * half;
-    let pixels = (0..IMAGE * IMAGE).map(|pixel| (pixel % IMAGE, pixel / IMAGE));
+    let pixels = (0..IMAGE * IMAGE).map(|index| {
+        let (tile, within) = (index / 64, index % 64);
+        let (block, lane) = (within / 8, within % 8);
+        let column = tile % (IMAGE / 8) * 8 + block % 2 * 4 + lane % 4;
+        (column, tile / (IMAGE / 8) * 8 + block / 2 * 2 + lane / 4)
+    });
     pixels
         .map(|(column, row)| {
             RaySegment::new(eye, forward + right * offset(column) - up * offset(row))

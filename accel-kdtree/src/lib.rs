@@ -38,7 +38,8 @@
 //! [`KdTreeBuilder`] takes settings; `splitting` divides one node by the cheapest
 //! `plane`, which `sweep` finds among sorted `event`s, or `binned` among a few;
 //! `division` carries it out, clipping by `part`, which tells why no hit is lost;
-//! `layout` packs the tree into the words of `node`; `traversal` walks them;
+//! `layout` packs the tree into the words of `node`; `traversal` walks them, by
+//! where a ray is `crossing` planes; `packet` does so for many rays at once;
 //! `validate` checks.
 //!
 //! # Complexity
@@ -48,11 +49,13 @@
 
 mod binned;
 mod builder;
+mod crossing;
 mod division;
 mod event;
 mod kd_tree;
 mod layout;
 mod node;
+mod packet;
 mod part;
 mod plane;
 mod splitting;
@@ -72,7 +75,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    Clip, ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray,
-    RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    Clip, ClosestHit, Filtered, Hit, InvalidPrimitives, PacketTraversal, PreparedRay, Primitive,
+    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
     TreeStatistics, Triangle, ValidationError, glam,
 };

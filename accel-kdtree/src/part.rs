@@ -19,7 +19,6 @@
 //! no room for their own. It follows the small primitives ([`Slack`]), so that a
 //! few large ones do not make it large.
 
-use accel_core::geometry::rounding;
 use accel_core::glam::Vec3;
 use accel_core::{Aabb, Clip, Primitive};
 
@@ -137,15 +136,6 @@ fn clamped(bounds: &Aabb, cell: &Aabb) -> Aabb {
         min: into_cell(bounds.min),
         max: into_cell(bounds.max),
     }
-}
-
-/// The origin moved down and up by the slack, rounded outward.
-pub(crate) fn slack_around(origin: f32, slack: Slack) -> [f32; 2] {
-    let origin = f64::from(origin);
-    [
-        rounding::down(origin - slack.0),
-        rounding::up(origin + slack.0),
-    ]
 }
 
 /// How far a hit on `primitive` may lie off it.
