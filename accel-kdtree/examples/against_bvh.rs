@@ -28,7 +28,10 @@ use accel_kdtree::{
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// Pixels along a side of the image.
 const IMAGE: usize = 256;
+/// Pixels along a side of the image for packets.
+const PACKETS_IMAGE: usize = 1024;
 const ROUNDS: usize = 5;
 const TURN: usize = 4096;
 
@@ -61,7 +64,7 @@ fn compare(triangles: &[Triangle], camera: [f32; 7]) -> Result<(), BuildError> {
         describe(name, time, &tree, &builder.heuristic);
         trees.push((name, tree));
     }
-    let primary = primary_rays(camera);
+    let primary = primary_rays(camera, IMAGE);
     let paths = bounces(&bvh, &primary);
     for (kind, rays) in [("primary", &primary), ("path", &paths)] {
         print_counts(kind, "bvh-sweep", &bvh, rays);
@@ -73,6 +76,7 @@ fn compare(triangles: &[Triangle], camera: [f32; 7]) -> Result<(), BuildError> {
         }
         print_times(kind, &bvh, &trees, rays);
     }
+    let primary = primary_rays(camera, PACKETS_IMAGE);
     print_packets("bvh-sweep", &bvh, &primary);
     print_packets(trees[0].0, &trees[0].1, &primary);
     Ok(())
@@ -205,7 +209,7 @@ where
     A: PacketTraversal<4> + PacketTraversal<8> + PacketTraversal<16>,
 {
     let mut ratios = [const { Vec::new() }; 3];
-    for rays in (0..2 * ROUNDS).flat_map(|_| rays.chunks(TURN)) {
+    for rays in (0..ROUNDS).flat_map(|_| rays.chunks(TURN)) {
         let single = answer(structure, rays);
         let times = [
             answer_in_packets::<4, A>(structure, rays),
@@ -278,18 +282,18 @@ fn in_front_of(triangles: &[Triangle]) -> [f32; 7] {
 
 /// One ray through the middle of every pixel of a square image, in tiles of 8 by
 /// 8 pixels and of these in blocks of 4 by 2.
-fn primary_rays([x, y, z, at_x, at_y, at_z, degrees]: [f32; 7]) -> Vec<RaySegment> {
+fn primary_rays([x, y, z, at_x, at_y, at_z, degrees]: [f32; 7], side: usize) -> Vec<RaySegment> {
     let eye = Vec3::new(x, y, z);
     let forward = (Vec3::new(at_x, at_y, at_z) - eye).normalize();
     let right = forward.cross(Vec3::Y).normalize();
     let up = right.cross(forward);
     let half = (degrees.to_radians() / 2.0).tan();
-    let offset = |pixel: usize| ((pixel as f32 + 0.5) / IMAGE as f32 * 2.0 - 1.0) * half;
-    let pixels = (0..IMAGE * IMAGE).map(|index| {
+    let offset = |pixel: usize| ((pixel as f32 + 0.5) / side as f32 * 2.0 - 1.0) * half;
+    let pixels = (0..side * side).map(|index| {
         let (tile, within) = (index / 64, index % 64);
         let (block, lane) = (within / 8, within % 8);
-        let column = tile % (IMAGE / 8) * 8 + block % 2 * 4 + lane % 4;
-        (column, tile / (IMAGE / 8) * 8 + block / 2 * 2 + lane / 4)
+        let column = tile % (side / 8) * 8 + block % 2 * 4 + lane % 4;
+        (column, tile / (side / 8) * 8 + block / 2 * 2 + lane / 4)
     });
     pixels
         .map(|(column, row)| {
