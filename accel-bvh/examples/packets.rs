@@ -106,7 +106,7 @@ fn primary_rays(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
     let extent = bounds.max - bounds.min;
     let is_inside = std::env::var_os("FROM_INSIDE").is_some();
     let forward = Vec3::new(-0.7, -0.2, -0.6).normalize();
-    let distance = if is_inside { 0.0 } else { 1.1 };
+    let distance = if is_inside { 0.0 } else { 0.8 };
     let eye = bounds.center() - forward * extent.length() * distance;
     let right = forward.cross(Vec3::Y).normalize();
     let up = right.cross(forward);

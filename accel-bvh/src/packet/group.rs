@@ -18,14 +18,14 @@ use crate::traversal::traverse_below;
 /// of a vector cost about as much as one of a single ray.
 const ALONE: u32 = 1;
 
-pub(super) struct Group<'a, L, P: Primitive, Q, const VECTORS: usize> {
+struct Group<'a, 'r, L, P: Primitive, Q, const VECTORS: usize> {
     bvh: &'a Bvh<P>,
-    packet: RayPacket<'a, L, VECTORS>,
+    packet: &'a mut RayPacket<'r, L, VECTORS>,
     queries: &'a mut [Q],
-    cull: SiblingCull,
+    /// For more than one vector.
+    cull: Option<SiblingCull>,
     /// The largest `t_max` of all rays.
     farthest: f32,
-    stack: PacketStack<Visit<L>>,
 }
 
 /// A node that some ray of a group meets.
@@ -42,46 +42,48 @@ struct Visit<L> {
     near: L,
 }
 
-impl<'a, L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'a, L, P, Q, VECTORS> {
-    /// `None` where there is nothing to trace.
-    #[inline(always)]
-    pub(super) fn new(
-        bvh: &'a Bvh<P>,
-        rays: &'a [Option<PreparedRay>],
-        queries: &'a mut [Q],
-    ) -> Option<Self> {
-        let packet = RayPacket::new(rays, |lane| queries[lane].t_max())?;
-        Some(Self {
-            bvh,
-            cull: SiblingCull::new(packet.bounds()),
-            farthest: packet.farthest(),
-            packet,
-            queries,
-            stack: PacketStack::new(),
-        })
-    }
-
-    #[inline(always)]
-    pub(super) fn traverse<S: TraversalStatistics>(mut self, statistics: &mut S) {
-        let mut visit = self.root(statistics);
-        while let Some(current) = visit {
-            visit = match current.pointer.kind() {
-                Node::Leaf(offset) => {
-                    self.leaf(offset, &current, statistics);
-                    None
-                }
-                Node::Inner(_) if self.goes_on_alone(&current) => {
-                    self.trace_alone(&current, statistics);
-                    None
-                }
-                Node::Inner(offset) => self.inner(offset, &current, statistics),
-            };
-            if visit.is_none() {
-                visit = self.pop(statistics);
+/// Traces rays, of which there is at least one.
+#[inline(always)]
+pub(super) fn trace<L: Lanes, P, Q, S, const VECTORS: usize>(
+    bvh: &Bvh<P>,
+    rays: &[Option<PreparedRay>],
+    queries: &mut [Q],
+    statistics: &mut S,
+) where
+    P: Primitive,
+    Q: Query,
+    S: TraversalStatistics,
+{
+    let mut packet = RayPacket::<L, VECTORS>::new(rays, |lane| queries[lane].t_max());
+    let mut stack = PacketStack::new();
+    let cull = (VECTORS > 1).then(|| SiblingCull::new(&packet.bounds()));
+    let mut group = Group {
+        bvh,
+        cull,
+        farthest: packet.farthest(),
+        packet: &mut packet,
+        queries,
+    };
+    let mut visit = group.root(statistics);
+    while let Some(current) = visit {
+        visit = match current.pointer.kind() {
+            Node::Leaf(offset) => {
+                group.leaf(offset, &current, statistics);
+                None
             }
+            Node::Inner(_) if group.goes_on_alone(&current) => {
+                group.trace_alone(&current, statistics);
+                None
+            }
+            Node::Inner(offset) => group.inner(offset, &current, &mut stack, statistics),
+        };
+        if visit.is_none() {
+            visit = group.pop(&mut stack, statistics);
         }
     }
+}
 
+impl<L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'_, '_, L, P, Q, VECTORS> {
     /// The root, for the first vector that meets it.
     #[inline(always)]
     fn root<S: TraversalStatistics>(&mut self, statistics: &mut S) -> Option<Visit<L>> {
@@ -117,6 +119,7 @@ impl<'a, L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'a, L, P,
         &mut self,
         offset: u32,
         parent: &Visit<L>,
+        stack: &mut PacketStack<Visit<L>>,
         statistics: &mut S,
     ) -> Option<Visit<L>> {
         statistics.visit_node(NodeKind::Inner, INNER_NODE_BYTES as u32);
@@ -129,8 +132,10 @@ impl<'a, L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'a, L, P,
             self.child(&node, 1, pointers[1], offset, parent.first),
         ];
         // Early hit failed for a child: early miss, then the other vectors.
-        if VECTORS > 1 && children.iter().any(|child| child.mask == 0) {
-            let may_meet = self.cull.may_meet(&node, self.farthest);
+        if let Some(cull) = &self.cull
+            && (children[0].mask == 0 || children[1].mask == 0)
+        {
+            let may_meet = cull.may_meet(&node, self.farthest);
             for (side, child) in children.iter_mut().enumerate() {
                 if child.mask == 0 && may_meet >> side & 1 == 1 {
                     self.find_first(child, &node, statistics);
@@ -145,7 +150,7 @@ impl<'a, L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'a, L, P,
                 } else {
                     [right, left]
                 };
-                self.stack.push(later);
+                stack.push(later);
                 Some(next)
             }
             (true, false) => Some(left),
@@ -196,9 +201,13 @@ impl<'a, L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'a, L, P,
 
     /// The node put off last that a ray still enters before its best hit.
     #[inline(always)]
-    fn pop<S: TraversalStatistics>(&mut self, statistics: &mut S) -> Option<Visit<L>> {
+    fn pop<S: TraversalStatistics>(
+        &self,
+        stack: &mut PacketStack<Visit<L>>,
+        statistics: &mut S,
+    ) -> Option<Visit<L>> {
         loop {
-            let mut visit = self.stack.pop()?;
+            let mut visit = stack.pop()?;
             visit.mask &= visit.near.le_mask(self.packet.t_max(visit.first as usize));
             if VECTORS > 1 && visit.mask == 0 {
                 let node = self.bvh.inner_node(visit.parent);

@@ -28,7 +28,6 @@ use accel_core::statistics::TraversalStatistics;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::Bvh;
-use group::Group;
 
 /// Vectors in a group.
 const GROUP: usize = 8;
@@ -65,10 +64,10 @@ impl<P: Primitive, Q: Query, S: TraversalStatistics, const N: usize> TracePacket
     fn trace<L: Lanes, const VECTORS: usize>(&mut self) {
         let size = VECTORS * L::COUNT;
         for (rays, queries) in self.rays.chunks(size).zip(self.queries.chunks_mut(size)) {
-            if let Some(group) = Group::<L, P, Q, VECTORS>::new(self.bvh, rays, queries) {
-                group.traverse(self.statistics);
-            }
             let count = rays.iter().flatten().count();
+            if count > 0 {
+                group::trace::<L, P, Q, S, VECTORS>(self.bvh, rays, queries, self.statistics);
+            }
             (0..count).for_each(|_| self.statistics.finish_ray());
         }
     }

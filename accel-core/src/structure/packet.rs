@@ -61,8 +61,10 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
         mut answer: impl FnMut(usize, Option<Q>),
     ) {
         for (packet, rays) in rays.chunks(N).enumerate() {
-            let prepared: [Option<PreparedRay>; N] =
-                std::array::from_fn(|lane| rays.get(lane).and_then(PreparedRay::new));
+            let mut prepared: [Option<PreparedRay>; N] = [None; N];
+            for (ray, slot) in rays.iter().zip(&mut prepared) {
+                *slot = PreparedRay::new(ray);
+            }
             let missed = prepared[..rays.len()].iter().filter(|ray| ray.is_none());
             missed.for_each(|_| statistics.finish_ray());
             let Some(first) = prepared.iter().flatten().next() else {

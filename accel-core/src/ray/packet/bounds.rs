@@ -5,7 +5,9 @@
 use glam::Vec3;
 
 use crate::geometry::{Aabb, Axis};
-use crate::ray::{Interval, PreparedRay, max_or_keep, min_or_keep};
+use crate::ray::packet::RayLanes;
+use crate::ray::{Interval, max_or_keep, min_or_keep};
+use crate::simd::Lanes;
 
 /// Bounds of all rays of a packet: their slab test is passed by every box that
 /// any of the rays meets.
@@ -27,49 +29,34 @@ pub struct PacketBounds {
 }
 
 impl PacketBounds {
-    #[inline]
-    pub(super) fn of(ray: &PreparedRay) -> Self {
-        // Infinity, of a direction without a component here, times zero is NaN,
-        // and so it stays: such an axis constrains nothing.
-        let finite = |reciprocal: Vec3| reciprocal + reciprocal * 0.0;
-        Self {
-            near_origin: ray.origin(),
-            far_origin: ray.origin(),
-            near_reciprocal: [finite(ray.near_reciprocal()); 2],
-            far_reciprocal: [finite(ray.far_reciprocal()); 2],
-            t_min: ray.t_min(),
-        }
-    }
-
-    #[inline]
-    pub(super) fn add(&mut self, ray: &PreparedRay) {
+    #[inline(always)]
+    pub(super) fn of<L: Lanes>(rays: &[RayLanes<L>]) -> Self {
+        let mut bounds = Self {
+            near_origin: Vec3::ZERO,
+            far_origin: Vec3::ZERO,
+            near_reciprocal: [Vec3::NAN; 2],
+            far_reciprocal: [Vec3::NAN; 2],
+            t_min: Range::of(rays, |lanes| lanes.t_min).low,
+        };
         for axis in 0..3 {
-            let reciprocal = ray.reciprocal()[axis];
-            let is_negative = self.near_reciprocal[0][axis] < 0.0;
-            if !reciprocal.is_finite() || is_negative != (reciprocal < 0.0) {
-                for bounds in self
-                    .near_reciprocal
-                    .iter_mut()
-                    .chain(&mut self.far_reciprocal)
-                {
-                    bounds[axis] = f32::NAN;
-                }
-            }
-            let (near, far) = (ray.near_reciprocal()[axis], ray.far_reciprocal()[axis]);
-            lower(&mut self.near_reciprocal[0][axis], near);
-            raise(&mut self.near_reciprocal[1][axis], near);
-            lower(&mut self.far_reciprocal[0][axis], far);
-            raise(&mut self.far_reciprocal[1][axis], far);
-            let origin = ray.origin()[axis];
-            if is_negative {
-                lower(&mut self.near_origin[axis], origin);
-                raise(&mut self.far_origin[axis], origin);
+            let near = Range::of(rays, |lanes| lanes.near_reciprocal[axis]);
+            let origin = Range::of(rays, |lanes| lanes.origin[axis]);
+            let is_negative = near.high < 0.0;
+            (bounds.near_origin[axis], bounds.far_origin[axis]) = if is_negative {
+                (origin.low, origin.high)
             } else {
-                raise(&mut self.near_origin[axis], origin);
-                lower(&mut self.far_origin[axis], origin);
+                (origin.high, origin.low)
+            };
+            let have_one_sign = is_negative || near.low > 0.0;
+            if near.is_finite && have_one_sign {
+                let far = Range::of(rays, |lanes| lanes.far_reciprocal[axis]);
+                bounds.near_reciprocal[0][axis] = near.low;
+                bounds.near_reciprocal[1][axis] = near.high;
+                bounds.far_reciprocal[0][axis] = far.low;
+                bounds.far_reciprocal[1][axis] = far.high;
             }
         }
-        lower(&mut self.t_min, ray.t_min());
+        bounds
     }
 
     /// The interval that contains those of all rays: if it is empty, no ray
@@ -100,13 +87,33 @@ impl PacketBounds {
     }
 }
 
-// Both leave a bound that is NaN as it is.
-#[inline]
-fn lower(bound: &mut f32, value: f32) {
-    *bound = min_or_keep(*bound, value);
+/// The smallest and the largest of a number of each ray.
+struct Range {
+    low: f32,
+    high: f32,
+    is_finite: bool,
 }
 
-#[inline]
-fn raise(bound: &mut f32, value: f32) {
-    *bound = max_or_keep(*bound, value);
+impl Range {
+    #[inline(always)]
+    fn of<L: Lanes>(rays: &[RayLanes<L>], number: impl Fn(&RayLanes<L>) -> L) -> Self {
+        let infinity = L::splat(f32::INFINITY);
+        let (mut low, mut high) = (infinity, L::splat(f32::NEG_INFINITY));
+        let mut finite = L::ALL;
+        for lanes in rays {
+            let number = number(lanes);
+            finite &= number.lt_mask(infinity) & L::splat(f32::NEG_INFINITY).lt_mask(number);
+            low = low.min_or_keep(number);
+            high = high.max_or_keep(number);
+        }
+        Self {
+            low: low.lanes().iter().copied().fold(f32::INFINITY, min_or_keep),
+            high: high
+                .lanes()
+                .iter()
+                .copied()
+                .fold(f32::NEG_INFINITY, max_or_keep),
+            is_finite: finite == L::ALL,
+        }
+    }
 }

@@ -26,7 +26,6 @@ pub struct RayPacket<'a, L, const VECTORS: usize> {
     lanes: [RayLanes<L>; VECTORS],
     t_max: [L; VECTORS],
     shared: SharedFacts,
-    bounds: PacketBounds,
 }
 
 /// What all rays of a packet have in common.
@@ -56,32 +55,46 @@ pub struct PacketVector<'a, L> {
 }
 
 impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
-    /// Puts `rays` into lanes; ray `i` starts with `t_max(i)`. `None` if there
-    /// is no ray at all.
+    /// Puts `rays` into lanes; ray `i` starts with `t_max(i)`.
     ///
     /// # Panics
-    /// If there are more rays than lanes.
+    /// If there are more rays than lanes, or no ray at all.
     #[inline(always)]
-    pub fn new(rays: &'a [Option<PreparedRay>], t_max: impl Fn(usize) -> f32) -> Option<Self> {
+    pub fn new(rays: &'a [Option<PreparedRay>], t_max: impl Fn(usize) -> f32) -> Self {
         assert!(rays.len() <= VECTORS * L::COUNT, "a lane for every ray");
-        let first = rays.iter().flatten().next()?;
+        let first = rays.iter().flatten().next();
+        let first = first.expect("a packet has at least one ray");
+        // Empty lanes hold a ray of the packet, so that no bound depends on them.
         let mut packet = Self {
             rays,
             lanes: [RayLanes::splat(first); VECTORS],
             t_max: [L::splat(f32::NEG_INFINITY); VECTORS],
-            shared: SharedFacts::of(first),
-            bounds: PacketBounds::of(first),
+            shared: SharedFacts {
+                origin: Some(first.origin()),
+                signs: Some(Axis::ALL.map(|axis| first.is_negative(axis))),
+                shear_axis: Some(first.shear().axis),
+            },
         };
+        let mut has_one_axis = true;
         for (index, ray) in rays.iter().enumerate() {
             if let Some(ray) = ray {
                 let (vector, lane) = (index / L::COUNT, index % L::COUNT);
                 packet.lanes[vector].set(lane, ray);
                 packet.t_max[vector].lanes_mut()[lane] = t_max(index);
-                packet.shared.add(ray);
-                packet.bounds.add(ray);
+                has_one_axis &= ray.shear().axis == first.shear().axis;
             }
         }
-        Some(packet)
+        let (mut has_one_origin, mut have_same_signs) = (true, true);
+        for lanes in &mut packet.lanes {
+            lanes.pad();
+            has_one_origin &= lanes.all_start_at(first.origin());
+            have_same_signs &= lanes.all_have_signs_of(first);
+        }
+        let shared = &mut packet.shared;
+        shared.origin = shared.origin.filter(|_| has_one_origin);
+        shared.signs = shared.signs.filter(|_| have_same_signs);
+        shared.shear_axis = shared.shear_axis.filter(|_| has_one_axis);
+        packet
     }
 
     /// What the rays have in common.
@@ -90,10 +103,10 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
         &self.shared
     }
 
-    /// Bounds of all rays.
+    /// Bounds of all rays: computed here, so ask once.
     #[inline(always)]
-    pub fn bounds(&self) -> &PacketBounds {
-        &self.bounds
+    pub fn bounds(&self) -> PacketBounds {
+        PacketBounds::of(&self.lanes)
     }
 
     /// The rays of a vector, in lanes.
@@ -173,29 +186,6 @@ impl<L: Lanes> PacketVector<'_, L> {
     pub fn retire(&mut self, lane: usize) {
         self.shorten(lane, f32::NEG_INFINITY);
     }
-}
-
-impl SharedFacts {
-    #[inline]
-    fn of(ray: &PreparedRay) -> Self {
-        Self {
-            origin: Some(ray.origin()),
-            signs: Some(signs(ray)),
-            shear_axis: Some(ray.shear().axis),
-        }
-    }
-
-    #[inline]
-    fn add(&mut self, ray: &PreparedRay) {
-        self.origin = self.origin.filter(|&origin| origin == ray.origin());
-        self.signs = self.signs.filter(|&shared| shared == signs(ray));
-        self.shear_axis = self.shear_axis.filter(|&axis| axis == ray.shear().axis);
-    }
-}
-
-#[inline]
-fn signs(ray: &PreparedRay) -> [bool; 3] {
-    Axis::ALL.map(|axis| ray.is_negative(axis))
 }
 
 /// The lanes of a mask, lowest first.

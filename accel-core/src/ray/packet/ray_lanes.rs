@@ -1,6 +1,9 @@
 //! Rays side by side.
 
+use glam::Vec3;
+
 use crate::ray::PreparedRay;
+use crate::ray::prepared::{FAR_PAD, NEAR_PAD};
 use crate::simd::Lanes;
 
 /// As many rays as a vector has lanes, by coordinate.
@@ -18,7 +21,7 @@ pub struct RayLanes<L> {
 }
 
 impl<L: Lanes> RayLanes<L> {
-    /// `ray` in every lane.
+    /// `ray` in every lane, not padded yet.
     #[inline(always)]
     pub(super) fn splat(ray: &PreparedRay) -> Self {
         let zero = L::splat(0.0);
@@ -31,23 +34,56 @@ impl<L: Lanes> RayLanes<L> {
         };
         for axis in 0..3 {
             lanes.origin[axis] = L::splat(ray.origin()[axis]);
-            lanes.near_reciprocal[axis] = L::splat(ray.near_reciprocal()[axis]);
-            lanes.far_reciprocal[axis] = L::splat(ray.far_reciprocal()[axis]);
+            lanes.near_reciprocal[axis] = L::splat(ray.reciprocal()[axis]);
         }
         lanes
     }
 
-    /// Puts `ray` into `lane`.
+    /// Puts `ray` into `lane`, not padded yet.
     #[inline(always)]
     pub(super) fn set(&mut self, lane: usize, ray: &PreparedRay) {
         for axis in 0..3 {
             self.origin[axis].lanes_mut()[lane] = ray.origin()[axis];
-            self.near_reciprocal[axis].lanes_mut()[lane] = ray.near_reciprocal()[axis];
-            self.far_reciprocal[axis].lanes_mut()[lane] = ray.far_reciprocal()[axis];
+            self.near_reciprocal[axis].lanes_mut()[lane] = ray.reciprocal()[axis];
         }
         self.t_min.lanes_mut()[lane] = ray.t_min();
         self.shear[0].lanes_mut()[lane] = ray.shear().x;
         self.shear[1].lanes_mut()[lane] = ray.shear().y;
+    }
+
+    /// Pads the reciprocals, as [`PreparedRay::new`] does.
+    #[inline(always)]
+    pub(super) fn pad(&mut self) {
+        for axis in 0..3 {
+            let reciprocal = self.near_reciprocal[axis];
+            self.near_reciprocal[axis] = reciprocal * L::splat(NEAR_PAD);
+            self.far_reciprocal[axis] = reciprocal * L::splat(FAR_PAD);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn all_start_at(&self, origin: Vec3) -> bool {
+        let mut mask = L::ALL;
+        for axis in 0..3 {
+            let start = L::splat(origin[axis]);
+            mask &= start.le_mask(self.origin[axis]) & self.origin[axis].le_mask(start);
+        }
+        mask == L::ALL
+    }
+
+    #[inline(always)]
+    pub(super) fn all_have_signs_of(&self, ray: &PreparedRay) -> bool {
+        let mut different = 0;
+        for axis in 0..3 {
+            let negative = self.near_reciprocal[axis].lt_mask(L::splat(0.0));
+            let expected = if ray.reciprocal()[axis] < 0.0 {
+                L::ALL
+            } else {
+                0
+            };
+            different |= negative ^ expected;
+        }
+        different == 0
     }
 
     /// The slab test where all directions have these `signs`: each axis' entry
