@@ -3,6 +3,7 @@
 mod bsp;
 mod bvh;
 mod dualsplit;
+mod kdtree;
 mod packets;
 mod sbvh;
 
@@ -68,6 +69,7 @@ static ROWS: &[&[Row]] = &[
     bvh::ROWS,
     packets::ROWS,
     sbvh::ROWS,
+    kdtree::ROWS,
     bsp::ROWS,
     dualsplit::ROWS,
     BRUTE_FORCE,

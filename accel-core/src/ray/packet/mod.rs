@@ -153,11 +153,18 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
     /// `t_max`.
     #[inline(always)]
     pub fn meets(&self, vector: usize, plane: impl Fn(usize, bool) -> f32) -> (L, u32) {
-        let (near, far) = match &self.shared.signs {
+        let (near, far) = self.slab(vector, plane);
+        (near, near.le_mask(far))
+    }
+
+    /// As [`meets`](Self::meets), with where each ray leaves the box instead of
+    /// the mask: no later than its `t_max`, and before it enters if it misses.
+    #[inline(always)]
+    pub fn slab(&self, vector: usize, plane: impl Fn(usize, bool) -> f32) -> (L, L) {
+        match &self.shared.signs {
             Some(signs) => self.lanes[vector].slab_by_sign(signs, self.t_max[vector], plane),
             None => self.lanes[vector].slab(self.t_max[vector], plane),
-        };
-        (near, near.le_mask(far))
+        }
     }
 }
 
