@@ -5,6 +5,7 @@ use accel_bvh::{BvhBuilder, ObjectSplit};
 use accel_core::{
     BuildError, BuildObserver, InPackets, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
 };
+use accel_kdtree::KdTreeBuilder;
 
 use super::{Row, Structure};
 
@@ -41,6 +42,30 @@ pub(super) static ROWS: &[Row] = &[
         heuristic: SurfaceAreaHeuristic::default,
         build: build_bvh::<64>,
     },
+    Row {
+        name: "kdtree-sweep-packet",
+        is_headline: true,
+        about: "kdtree-sweep in packets of 8 rays, one vector of 8 lanes",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<8>,
+    },
+    Row {
+        name: "kdtree-sweep-4-packet",
+        is_headline: false,
+        about: "kdtree-sweep in packets of 4 rays",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<4>,
+    },
+    Row {
+        name: "kdtree-sweep-16-packet",
+        is_headline: false,
+        about: "kdtree-sweep in packets of 16 rays, two vectors one after the other",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<16>,
+    },
 ];
 
 fn build_bvh<const N: usize>(
@@ -55,4 +80,21 @@ fn build_bvh<const N: usize>(
     };
     let bvh = builder.build_with(triangles, observer)?;
     Ok(Box::new(InPackets::<_, N>(bvh)))
+}
+
+fn kd_heuristic() -> SurfaceAreaHeuristic {
+    KdTreeBuilder::default().heuristic
+}
+
+fn build_kdtree<const N: usize>(
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    let builder = KdTreeBuilder {
+        invalid_primitives,
+        ..KdTreeBuilder::default()
+    };
+    let tree = builder.build_with(triangles, observer)?;
+    Ok(Box::new(InPackets::<_, N>(tree)))
 }
