@@ -68,16 +68,16 @@ fn compare(order: &str, bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
             );
         };
         packets(0, &|hits| {
-            PacketTraversal::<4>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<4>::trace_closest_packets(bvh, rays, hits);
         });
         packets(1, &|hits| {
-            PacketTraversal::<8>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<8>::trace_closest_packets(bvh, rays, hits);
         });
         packets(2, &|hits| {
-            PacketTraversal::<16>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<16>::trace_closest_packets(bvh, rays, hits);
         });
         packets(3, &|hits| {
-            PacketTraversal::<64>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<64>::trace_closest_packets(bvh, rays, hits);
         });
     }
     print!("  {order}: single {:.2} Mrays/s; packets of", median(rates));

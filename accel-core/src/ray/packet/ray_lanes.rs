@@ -101,9 +101,9 @@ impl<L: Lanes> RayLanes<L> {
         plane: impl Fn(usize, bool) -> f32,
     ) -> (L, L) {
         let (mut near, mut far) = (self.t_min, t_max);
-        for axis in 0..3 {
-            let entry = L::splat(plane(axis, signs[axis]));
-            let exit = L::splat(plane(axis, !signs[axis]));
+        for (axis, &is_negative) in signs.iter().enumerate() {
+            let entry = L::splat(plane(axis, is_negative));
+            let exit = L::splat(plane(axis, !is_negative));
             near = near.max_or_keep((entry - self.origin[axis]) * self.near_reciprocal[axis]);
             far = far.min_or_keep((exit - self.origin[axis]) * self.far_reciprocal[axis]);
         }
