@@ -44,7 +44,7 @@ pub(super) static ROWS: &[Row] = &[
     },
     Row {
         name: "kdtree-sweep-packet",
-        is_headline: true,
+        is_headline: false,
         about: "kdtree-sweep in packets of 8 rays, one vector of 8 lanes",
         settings: "as kdtree-sweep; coherent rays only",
         heuristic: kd_heuristic,
