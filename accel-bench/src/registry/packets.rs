@@ -5,19 +5,16 @@ use accel_bvh::{BvhBuilder, ObjectSplit};
 use accel_core::{
     BuildError, BuildObserver, InPackets, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
 };
-use accel_kdtree::{KdTreeBuilder, PlaneSearch};
+use accel_kdtree::KdTreeBuilder;
 
 use super::{Row, Structure};
-
-const BVH_SETTINGS: &str = "as bvh-sweep; coherent rays only";
-const KD_TREE_SETTINGS: &str = "as kdtree-sweep; coherent rays only";
 
 pub(super) static ROWS: &[Row] = &[
     Row {
         name: "bvh-sweep-packet",
         is_headline: true,
         about: "bvh-sweep in packets of 8 rays, one vector of 8 lanes",
-        settings: BVH_SETTINGS,
+        settings: "as bvh-sweep; coherent rays only",
         heuristic: SurfaceAreaHeuristic::default,
         build: build_bvh::<8>,
     },
@@ -25,7 +22,7 @@ pub(super) static ROWS: &[Row] = &[
         name: "bvh-sweep-4-packet",
         is_headline: false,
         about: "bvh-sweep in packets of 4 rays",
-        settings: BVH_SETTINGS,
+        settings: "as bvh-sweep; coherent rays only",
         heuristic: SurfaceAreaHeuristic::default,
         build: build_bvh::<4>,
     },
@@ -33,7 +30,7 @@ pub(super) static ROWS: &[Row] = &[
         name: "bvh-sweep-16-packet",
         is_headline: false,
         about: "bvh-sweep in packets of 16 rays, two vectors side by side",
-        settings: BVH_SETTINGS,
+        settings: "as bvh-sweep; coherent rays only",
         heuristic: SurfaceAreaHeuristic::default,
         build: build_bvh::<16>,
     },
@@ -41,33 +38,33 @@ pub(super) static ROWS: &[Row] = &[
         name: "bvh-sweep-64-packet",
         is_headline: false,
         about: "bvh-sweep in groups of 64 rays, culled together (Wald, Boulos, Shirley 2007)",
-        settings: BVH_SETTINGS,
+        settings: "as bvh-sweep; coherent rays only",
         heuristic: SurfaceAreaHeuristic::default,
         build: build_bvh::<64>,
     },
     Row {
         name: "kdtree-sweep-packet",
         is_headline: false,
-        about: "kdtree-sweep in packets of 8 rays",
-        settings: KD_TREE_SETTINGS,
-        heuristic: kd_tree_heuristic,
-        build: build_kd_tree::<8>,
+        about: "kdtree-sweep in packets of 8 rays, one vector of 8 lanes",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<8>,
     },
     Row {
         name: "kdtree-sweep-4-packet",
         is_headline: false,
         about: "kdtree-sweep in packets of 4 rays",
-        settings: KD_TREE_SETTINGS,
-        heuristic: kd_tree_heuristic,
-        build: build_kd_tree::<4>,
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<4>,
     },
     Row {
         name: "kdtree-sweep-16-packet",
         is_headline: false,
-        about: "kdtree-sweep in packets of 16 rays",
-        settings: KD_TREE_SETTINGS,
-        heuristic: kd_tree_heuristic,
-        build: build_kd_tree::<16>,
+        about: "kdtree-sweep in packets of 16 rays, two vectors one after the other",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<16>,
     },
 ];
 
@@ -85,17 +82,16 @@ fn build_bvh<const N: usize>(
     Ok(Box::new(InPackets::<_, N>(bvh)))
 }
 
-fn kd_tree_heuristic() -> SurfaceAreaHeuristic {
+fn kd_heuristic() -> SurfaceAreaHeuristic {
     KdTreeBuilder::default().heuristic
 }
 
-fn build_kd_tree<const N: usize>(
+fn build_kdtree<const N: usize>(
     triangles: &[Triangle],
     invalid_primitives: InvalidPrimitives,
     observer: &dyn BuildObserver,
 ) -> Result<Structure, BuildError> {
     let builder = KdTreeBuilder {
-        search: PlaneSearch::Sweep,
         invalid_primitives,
         ..KdTreeBuilder::default()
     };
