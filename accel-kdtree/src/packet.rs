@@ -30,7 +30,7 @@ use accel_core::{AccelerationStructure, PreparedRay, Primitive};
 
 use crate::KdTree;
 use crate::crossing::{CrossingLanes, Crossings};
-use crate::node::{Leaf, NODE_BYTES};
+use crate::node::{Leaf, NODE_BYTES, Node};
 use crate::traversal::{Segment, traverse_below};
 
 /// A vector of no more active rays is traced ray by ray.
@@ -66,44 +66,64 @@ impl<P: Primitive, Q: Query, S: TraversalStatistics, const N: usize> TracePacket
     fn trace<L: Lanes>(self) {
         let vectors = self.rays.chunks(L::COUNT);
         for (rays, queries) in vectors.zip(self.queries.chunks_mut(L::COUNT)) {
-            if let Some(packet) = RayPacket::new(rays, |lane| queries[lane].t_max()) {
-                trace_vector::<L, P, Q, S>(self.tree, packet, queries, self.statistics);
-            }
             let count = rays.iter().flatten().count();
+            if count > 0 {
+                trace_vector::<L, P, Q, S>(self.tree, rays, queries, self.statistics);
+            }
             (0..count).for_each(|_| self.statistics.finish_ray());
         }
     }
 }
 
+/// Traces rays, of which there is at least one.
 #[inline(always)]
 fn trace_vector<L: Lanes, P: Primitive, Q: Query, S: TraversalStatistics>(
     tree: &KdTree<P>,
-    packet: RayPacket<'_, L, 1>,
+    rays: &[Option<PreparedRay>],
     queries: &mut [Q],
     statistics: &mut S,
 ) {
+    let mut packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
     let Some(signs) = packet.shared().signs else {
-        return trace_each(tree, packet, queries, statistics);
+        return trace_each(tree, rays, queries, statistics);
     };
     let crossings = CrossingLanes::new(packet.lanes(0), &signs, &tree.tolerance());
-    let vector = Vector {
+    // In a place of its own: it is large, and must never be moved.
+    let mut stack = PacketStack::new();
+    let mut vector = Vector {
         tree,
-        packet,
-        crossings,
+        packet: &mut packet,
+        crossings: &crossings,
         queries,
-        stack: PacketStack::new(),
     };
-    vector.traverse(statistics);
+    let mut next = vector.root(statistics);
+    while let Some(visit) = next {
+        let node = tree.nodes[visit.node as usize];
+        next = match node.as_leaf() {
+            Some(leaf) => {
+                vector.leaf(leaf, &visit, statistics);
+                None
+            }
+            None if visit.active.count_ones() <= ALONE => {
+                vector.trace_alone(&visit, statistics);
+                None
+            }
+            None => vector.inner(node, &visit, &mut stack, statistics),
+        };
+        if next.is_none() {
+            next = vector.pop(&mut stack);
+        }
+    }
 }
 
 /// Traces the rays one after the other.
-fn trace_each<L: Lanes, P: Primitive, Q: Query, S: TraversalStatistics>(
+#[inline(never)]
+fn trace_each<P: Primitive, Q: Query, S: TraversalStatistics>(
     tree: &KdTree<P>,
-    mut packet: RayPacket<'_, L, 1>,
+    rays: &[Option<PreparedRay>],
     queries: &mut [Q],
     statistics: &mut S,
 ) {
-    let rays = packet.vector(0).rays;
     for (ray, query) in rays.iter().zip(queries) {
         if let Some(ray) = ray {
             tree.traverse(ray, query, statistics);
@@ -112,12 +132,11 @@ fn trace_each<L: Lanes, P: Primitive, Q: Query, S: TraversalStatistics>(
 }
 
 /// A vector of rays on its way through the tree.
-struct Vector<'a, L, P: Primitive, Q> {
+struct Vector<'a, 'r, L, P: Primitive, Q> {
     tree: &'a KdTree<P>,
-    packet: RayPacket<'a, L, 1>,
-    crossings: CrossingLanes<L>,
+    packet: &'a mut RayPacket<'r, L, 1>,
+    crossings: &'a CrossingLanes<L>,
     queries: &'a mut [Q],
-    stack: PacketStack<Visit<L>>,
 }
 
 /// A node, and the parts of the rays inside its cell; those of rays that are not
@@ -142,29 +161,7 @@ impl<L: Lanes> Visit<L> {
     }
 }
 
-impl<L: Lanes, P: Primitive, Q: Query> Vector<'_, L, P, Q> {
-    #[inline(always)]
-    fn traverse<S: TraversalStatistics>(mut self, statistics: &mut S) {
-        let mut next = self.root(statistics);
-        while let Some(visit) = next {
-            let node = self.tree.nodes[visit.node as usize];
-            next = match node.as_leaf() {
-                Some(leaf) => {
-                    self.leaf(leaf, &visit, statistics);
-                    None
-                }
-                None if visit.active.count_ones() <= ALONE => {
-                    self.trace_alone(&visit, statistics);
-                    None
-                }
-                None => self.inner(&visit, statistics),
-            };
-            if next.is_none() {
-                next = self.pop();
-            }
-        }
-    }
-
+impl<L: Lanes, P: Primitive, Q: Query> Vector<'_, '_, L, P, Q> {
     #[inline(always)]
     fn root<S: TraversalStatistics>(&self, statistics: &mut S) -> Option<Visit<L>> {
         let bounds = self.tree.bounds?;
@@ -185,13 +182,14 @@ impl<L: Lanes, P: Primitive, Q: Query> Vector<'_, L, P, Q> {
     /// off. Rounding never leaves an active ray without a child.
     #[inline(always)]
     fn inner<S: TraversalStatistics>(
-        &mut self,
+        &self,
+        node: Node,
         visit: &Visit<L>,
+        stack: &mut PacketStack<Visit<L>>,
         statistics: &mut S,
     ) -> Option<Visit<L>> {
         statistics.visit_node(NodeKind::Inner, NODE_BYTES as u32);
         statistics.test_planes(1);
-        let node = self.tree.nodes[visit.node as usize];
         let crossing = &self.crossings.axes[node.axis_index()];
         let [entry, exit] = crossing.lanes_at(node.position());
         let [near_child, far_child] = crossing.children(node.index());
@@ -201,7 +199,7 @@ impl<L: Lanes, P: Primitive, Q: Query> Vector<'_, L, P, Q> {
             return (far.active != 0).then_some(far);
         }
         if far.active != 0 {
-            self.stack.push(far);
+            stack.push(far);
         }
         Some(near)
     }
@@ -218,9 +216,9 @@ impl<L: Lanes, P: Primitive, Q: Query> Vector<'_, L, P, Q> {
 
     /// The node put off last that a ray still enters before its best hit.
     #[inline(always)]
-    fn pop(&mut self) -> Option<Visit<L>> {
+    fn pop(&self, stack: &mut PacketStack<Visit<L>>) -> Option<Visit<L>> {
         loop {
-            let put_off = self.stack.pop()?;
+            let put_off = stack.pop()?;
             let far = put_off.far.min_or_keep(self.packet.t_max(0));
             let visit = Visit::new(put_off.node, put_off.near, far);
             if visit.active != 0 {
