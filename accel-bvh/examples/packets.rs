@@ -5,7 +5,8 @@
 //! cargo run --release -p accel-bvh --example packets -- bunny.obj
 //! ```
 //!
-//! One thread answers the rays in tiles of 8 by 8 pixels, and again row by row;
+//! One thread answers the rays in tiles of 8 by 8 pixels, again row by row, and
+//! as many rays between random points around the scene, which share nothing;
 //! single rays and packets of every width take turns of a few thousand rays.
 //! Ratios are medians over all turns. Every hit is compared, bit for bit.
 #![allow(clippy::print_stdout)]
@@ -13,10 +14,14 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use accel_bvh::accel_core::simd::SimdLevel;
 use accel_bvh::glam::Vec3;
 use accel_bvh::{
-    AccelerationStructure, Bvh, BvhBuilder, Hit, ObjectSplit, PacketTraversal, RaySegment, Triangle,
+    AccelerationStructure, Bvh, BvhBuilder, ClosestHit, Hit, ObjectSplit, PacketTraversal,
+    RaySegment, TraversalCounters, Triangle,
 };
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 const SIDE: usize = 512;
 const ROUNDS: usize = 5;
@@ -32,8 +37,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let bvh = builder.build(&triangles)?;
         let rows = primary_rays(&bvh);
-        compare("tiles", &bvh, &tiles(&rows));
+        let tiles = tiles(&rows);
+        compare("tiles", &bvh, &tiles);
         compare("rows", &bvh, &rows);
+        compare("random", &bvh, &random_rays(&bvh));
+        count::<1>(&bvh, &tiles);
+        count::<4>(&bvh, &tiles);
+        count::<8>(&bvh, &tiles);
+        count::<16>(&bvh, &tiles);
+        count::<64>(&bvh, &tiles);
     }
     Ok(())
 }
@@ -56,16 +68,16 @@ fn compare(order: &str, bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
             );
         };
         packets(0, &|hits| {
-            PacketTraversal::<4>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<4>::trace_closest_packets(bvh, rays, hits);
         });
         packets(1, &|hits| {
-            PacketTraversal::<8>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<8>::trace_closest_packets(bvh, rays, hits);
         });
         packets(2, &|hits| {
-            PacketTraversal::<16>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<16>::trace_closest_packets(bvh, rays, hits);
         });
         packets(3, &|hits| {
-            PacketTraversal::<64>::trace_closest_packets(bvh, rays, hits)
+            PacketTraversal::<64>::trace_closest_packets(bvh, rays, hits);
         });
     }
     print!("  {order}: single {:.2} Mrays/s; packets of", median(rates));
@@ -73,6 +85,28 @@ fn compare(order: &str, bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
         print!("  {name}: {:.2}x", median(ratios));
     }
     println!();
+}
+
+/// What packets of `N` do, by ray: a packet that visits a node visits it once,
+/// and a vector that is tested against a box is tested once.
+fn count<const N: usize>(bvh: &Bvh<Triangle>, rays: &[RaySegment]) {
+    let mut counters = TraversalCounters::default();
+    let level = SimdLevel::detect();
+    PacketTraversal::<N>::query_packets(
+        bvh,
+        level,
+        rays,
+        &mut counters,
+        ClosestHit::new,
+        |_, _| (),
+    );
+    println!(
+        "  packets of {N:2}: per ray {:.2} nodes, {:.2} of them leaves, {:.2} box tests, {:.2} triangles",
+        counters.mean(&counters.nodes),
+        counters.mean(&counters.leaves),
+        counters.mean(&counters.box_tests),
+        counters.mean(&counters.primitive_tests),
+    );
 }
 
 #[inline(never)]
@@ -114,6 +148,24 @@ fn primary_rays(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
     let rays = (0..SIDE * SIDE).map(|index| {
         let (x, y) = (pixel(index % SIDE), pixel(index / SIDE));
         RaySegment::new(eye, forward + right * x - up * y)
+    });
+    rays.collect()
+}
+
+/// Rays between random points of the sphere around the scene.
+fn random_rays(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let bounds = bvh.bounds().expect("the scene is not empty");
+    let radius = 0.5 * (bounds.max - bounds.min).length();
+    let mut point = || loop {
+        let point = Vec3::from([0; 3].map(|_| random.random_range(-1.0..1.0_f32)));
+        if (0.01..1.0).contains(&point.length()) {
+            break bounds.center() + radius * point.normalize();
+        }
+    };
+    let rays = (0..SIDE * SIDE / 4).map(|_| {
+        let (from, to) = (point(), point());
+        RaySegment::new(from, to - from)
     });
     rays.collect()
 }

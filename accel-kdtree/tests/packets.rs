@@ -55,7 +55,7 @@ fn check<const N: usize>(
             packets(
                 index,
                 query.and_then(|query| query.best().as_ref().map(bits)),
-            )
+            );
         },
     );
     PacketTraversal::<N>::query_packets(tree, level, rays, &mut (), AnyHit::new, |index, query| {

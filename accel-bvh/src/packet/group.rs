@@ -42,19 +42,24 @@ struct Visit<L> {
     near: L,
 }
 
-/// Traces rays, of which there is at least one.
+/// Traces rays, of which there is at least one; false, and nothing done, where
+/// their directions differ in sign.
 #[inline(always)]
 pub(super) fn trace<L: Lanes, P, Q, S, const VECTORS: usize>(
     bvh: &Bvh<P>,
     rays: &[Option<PreparedRay>],
     queries: &mut [Q],
     statistics: &mut S,
-) where
+) -> bool
+where
     P: Primitive,
     Q: Query,
     S: TraversalStatistics,
 {
     let mut packet = RayPacket::<L, VECTORS>::new(rays, |lane| queries[lane].t_max());
+    if packet.shared().signs.is_none() {
+        return false;
+    }
     let mut stack = PacketStack::new();
     let cull = (VECTORS > 1).then(|| SiblingCull::new(&packet.bounds()));
     let mut group = Group {
@@ -69,6 +74,10 @@ pub(super) fn trace<L: Lanes, P, Q, S, const VECTORS: usize>(
         visit = match current.pointer.kind() {
             Node::Leaf(offset) => {
                 group.leaf(offset, &current, statistics);
+                if VECTORS > 1 && group.farthest == f32::NEG_INFINITY {
+                    // Every ray is answered.
+                    return true;
+                }
                 None
             }
             Node::Inner(_) if group.goes_on_alone(&current) => {
@@ -81,6 +90,7 @@ pub(super) fn trace<L: Lanes, P, Q, S, const VECTORS: usize>(
             visit = group.pop(&mut stack, statistics);
         }
     }
+    true
 }
 
 impl<L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'_, '_, L, P, Q, VECTORS> {

@@ -17,6 +17,9 @@
 //!
 //! A vector that missed a node misses everything in it, so the search for the
 //! first one goes on where it ended at the parent.
+//!
+//! Rays whose directions differ in sign go different ways: a group of them falls
+//! apart into vectors, and a vector into single rays.
 
 mod cull;
 mod group;
@@ -28,6 +31,7 @@ use accel_core::statistics::TraversalStatistics;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::Bvh;
+use crate::traversal::traverse;
 
 /// Vectors in a group.
 const GROUP: usize = 8;
@@ -66,9 +70,48 @@ impl<P: Primitive, Q: Query, S: TraversalStatistics, const N: usize> TracePacket
         for (rays, queries) in self.rays.chunks(size).zip(self.queries.chunks_mut(size)) {
             let count = rays.iter().flatten().count();
             if count > 0 {
-                group::trace::<L, P, Q, S, VECTORS>(self.bvh, rays, queries, self.statistics);
+                trace_or_divide::<L, P, Q, S, VECTORS>(self.bvh, rays, queries, self.statistics);
             }
             (0..count).for_each(|_| self.statistics.finish_ray());
+        }
+    }
+}
+
+/// Traces a packet; one whose directions differ in sign falls apart, a group
+/// into its vectors, a vector into its rays.
+#[inline(always)]
+fn trace_or_divide<L: Lanes, P, Q, S, const VECTORS: usize>(
+    bvh: &Bvh<P>,
+    rays: &[Option<PreparedRay>],
+    queries: &mut [Q],
+    statistics: &mut S,
+) where
+    P: Primitive,
+    Q: Query,
+    S: TraversalStatistics,
+{
+    if group::trace::<L, P, Q, S, VECTORS>(bvh, rays, queries, statistics) {
+        return;
+    }
+    for (rays, queries) in rays.chunks(L::COUNT).zip(queries.chunks_mut(L::COUNT)) {
+        let is_tried = VECTORS == 1 || rays.iter().all(Option::is_none);
+        if is_tried || !group::trace::<L, P, Q, S, 1>(bvh, rays, queries, statistics) {
+            trace_alone(bvh, rays, queries, statistics);
+        }
+    }
+}
+
+/// Ray by ray, in a call of its own, compiled as for single rays.
+#[inline(never)]
+fn trace_alone<P: Primitive, Q: Query, S: TraversalStatistics>(
+    bvh: &Bvh<P>,
+    rays: &[Option<PreparedRay>],
+    queries: &mut [Q],
+    statistics: &mut S,
+) {
+    for (ray, query) in rays.iter().zip(queries) {
+        if let Some(ray) = ray {
+            traverse(bvh, ray, query, statistics);
         }
     }
 }

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use crate::geometry::Aabb;
-use crate::primitive::{Intersection, Primitive};
+use crate::primitive::{Intersection, LaneIntersections, Primitive};
 use crate::query::{Hit, Query};
 use crate::ray::packet::lanes_of;
 use crate::ray::{PacketVector, PreparedRay};
@@ -35,36 +35,48 @@ pub fn offer_primitive_packet<P: Primitive, L: Lanes, Q: Query>(
     rays: &mut PacketVector<'_, L>,
     queries: &mut [Q],
 ) -> u32 {
-    let candidates = primitive.packet_candidates(rays.lanes, rays.shared) & mask;
-    if candidates == 0 {
+    let found = primitive.intersect_packet(rays, mask);
+    if found.mask == 0 {
         return mask;
     }
-    mask & !offer_candidates(primitive, id, candidates, rays, queries)
-}
-
-/// Decides the candidates one by one; yields those whose queries break.
-#[inline(never)]
-fn offer_candidates<P: Primitive, L: Lanes, Q: Query>(
-    primitive: &P,
-    id: u32,
-    candidates: u32,
-    rays: &mut PacketVector<'_, L>,
-    queries: &mut [Q],
-) -> u32 {
+    let (t, hits) = gated(&found, &primitive.bounds(), rays);
     let mut answered = 0;
-    for lane in lanes_of(candidates) {
-        let (Some(ray), query) = (rays.ray(lane), &mut queries[lane]) else {
-            continue;
+    for lane in lanes_of(hits) {
+        let hit = Hit {
+            t: t.lanes()[lane],
+            u: found.u.lanes()[lane],
+            v: found.v.lanes()[lane],
+            id,
         };
-        match offer_primitive(primitive, id, ray, query) {
-            ControlFlow::Continue(()) => rays.shorten(lane, query.t_max()),
+        match queries[lane].offer(&hit) {
+            ControlFlow::Continue(()) => rays.shorten(lane, queries[lane].t_max()),
             ControlFlow::Break(()) => {
                 rays.retire(lane);
                 answered |= 1 << lane;
             }
         }
     }
-    answered
+    mask & !answered
+}
+
+/// The steps of [`offer_intersection`], lane by lane: the clamped `t`, and which
+/// lanes are hits.
+#[inline(always)]
+fn gated<L: Lanes>(
+    found: &LaneIntersections<L>,
+    bounds: &Aabb,
+    rays: &PacketVector<'_, L>,
+) -> (L, u32) {
+    let (near, far) = rays.lanes.whole_slab(rays.shared, &bounds.gate());
+    let finite = finite_mask(found.t) & finite_mask(found.u) & finite_mask(found.v);
+    let t = found.t.max_or_keep(near).min_or_keep(far) + L::splat(0.0);
+    let within = rays.lanes.t_min.le_mask(t) & t.le_mask(*rays.t_max) & finite_mask(t);
+    (t, found.mask & finite & near.le_mask(far) & within)
+}
+
+#[inline(always)]
+fn finite_mask<L: Lanes>(value: L) -> u32 {
+    value.lt_mask(L::splat(f32::INFINITY)) & L::splat(f32::NEG_INFINITY).lt_mask(value)
 }
 
 /// Offers `intersection` of the primitive `id`, whose box is `bounds`, to

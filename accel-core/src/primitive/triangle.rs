@@ -2,12 +2,13 @@
 
 use glam::Vec3;
 
-use super::{Clip, Intersection, Polygonal, Primitive, watertight};
+use super::{
+    Clip, Intersection, LaneIntersections, Polygonal, Primitive, intersect_one_by_one, watertight,
+};
 use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, rounding};
 use crate::layout::LeafOrdered;
 use crate::query::Hit;
-use crate::ray::PreparedRay;
-use crate::ray::packet::{RayLanes, SharedFacts};
+use crate::ray::{PacketVector, PreparedRay};
 use crate::reference::{chop_polygon, clip_polygon, clip_polygon_corners};
 use crate::simd::Lanes;
 
@@ -72,8 +73,16 @@ impl Primitive for Triangle {
     }
 
     #[inline(always)]
-    fn packet_candidates<L: Lanes>(&self, rays: &RayLanes<L>, shared: &SharedFacts) -> u32 {
-        watertight::packet_candidates(rays, shared, self.vertices())
+    fn intersect_packet<L: Lanes>(
+        &self,
+        rays: &PacketVector<'_, L>,
+        mask: u32,
+    ) -> LaneIntersections<L> {
+        let vertices = self.vertices();
+        match watertight::intersect_lanes(rays.lanes, rays.shared, mask, vertices) {
+            Some(found) => found,
+            None => intersect_one_by_one(self, rays, mask),
+        }
     }
 
     fn geometric_normal(&self, _: &Hit, _: Vec3) -> Vec3 {

@@ -4,7 +4,8 @@
 //! default build uses them without any detection. Elsewhere they are arrays,
 //! with the same results bit for bit.
 
-use super::Lanes;
+use super::doubles::F64x2;
+use super::{Lanes, PairOfDoubles};
 
 /// Four `f32`. Operations are lane by lane, in IEEE single precision.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +69,8 @@ impl F32x4 {
 impl Lanes for F32x4 {
     const COUNT: usize = 4;
 
+    type Doubles = PairOfDoubles<F64x2>;
+
     #[inline(always)]
     fn splat(value: f32) -> Self {
         Self::splat(value)
@@ -103,6 +106,15 @@ impl Lanes for F32x4 {
     fn lt_mask(self, other: Self) -> u32 {
         lanes::lt_mask(self.0, other.0)
     }
+    #[inline(always)]
+    fn to_doubles(self) -> Self::Doubles {
+        let [low, high] = lanes::to_doubles(self.0);
+        PairOfDoubles(F64x2(low), F64x2(high))
+    }
+    #[inline(always)]
+    fn from_doubles(doubles: Self::Doubles) -> Self {
+        Self(lanes::from_doubles(doubles.0.0, doubles.1.0))
+    }
 }
 
 impl std::ops::Add for F32x4 {
@@ -135,6 +147,8 @@ impl std::ops::Mul for F32x4 {
 #[allow(unsafe_code)]
 mod lanes {
     use core::arch::x86_64 as sse;
+
+    use super::super::doubles::register::Register;
 
     pub type Lanes = sse::__m128;
 
@@ -185,6 +199,21 @@ mod lanes {
         unsafe { sse::_mm_movemask_ps(sse::_mm_cmplt_ps(a, b)) as u32 }
     }
     #[inline(always)]
+    pub fn to_doubles(a: Lanes) -> [Register; 2] {
+        // SAFETY: as above.
+        unsafe {
+            [
+                sse::_mm_cvtps_pd(a),
+                sse::_mm_cvtps_pd(sse::_mm_movehl_ps(a, a)),
+            ]
+        }
+    }
+    #[inline(always)]
+    pub fn from_doubles(low: Register, high: Register) -> Lanes {
+        // SAFETY: as above.
+        unsafe { sse::_mm_movelh_ps(sse::_mm_cvtpd_ps(low), sse::_mm_cvtpd_ps(high)) }
+    }
+    #[inline(always)]
     pub fn to_array(a: Lanes) -> [f32; 4] {
         let mut array = [0.0; 4];
         // SAFETY: as above, and the array has room for four lanes.
@@ -202,6 +231,7 @@ mod lanes {
 
 #[cfg(not(target_arch = "x86_64"))]
 mod lanes {
+    use super::super::doubles::register::Register;
     use crate::ray;
 
     pub type Lanes = [f32; 4];
@@ -249,6 +279,15 @@ mod lanes {
         (0..4)
             .map(|lane| u32::from(a[lane] < b[lane]) << lane)
             .sum()
+    }
+    #[inline(always)]
+    pub fn to_doubles(a: Lanes) -> [Register; 2] {
+        let a = a.map(f64::from);
+        [[a[0], a[1]], [a[2], a[3]]]
+    }
+    #[inline(always)]
+    pub fn from_doubles(low: Register, high: Register) -> Lanes {
+        [low[0] as f32, low[1] as f32, high[0] as f32, high[1] as f32]
     }
     #[inline(always)]
     pub fn to_array(a: Lanes) -> [f32; 4] {

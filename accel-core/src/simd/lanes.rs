@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
 
+use super::Doubles;
+
 /// A vector of `f32`. Operations are lane by lane, in IEEE single precision and
 /// never fused, so that every width and instruction set gives the same bits.
 ///
@@ -12,6 +14,9 @@ pub trait Lanes:
 {
     /// How many lanes there are: at most 16.
     const COUNT: usize;
+
+    /// As many `f64`.
+    type Doubles: Doubles;
 
     /// The same value in all lanes.
     fn splat(value: f32) -> Self;
@@ -41,6 +46,12 @@ pub trait Lanes:
 
     /// Set where `self < other`; clear where either is NaN.
     fn lt_mask(self, other: Self) -> u32;
+
+    /// The same numbers in double precision.
+    fn to_doubles(self) -> Self::Doubles;
+
+    /// The nearest numbers in single precision.
+    fn from_doubles(doubles: Self::Doubles) -> Self;
 
     /// The mask of all lanes.
     const ALL: u32 = (1 << Self::COUNT) - 1;

@@ -31,8 +31,6 @@ enum Level {
     Baseline,
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
 }
 
 /// What every machine has: SSE2 on x86-64, arrays elsewhere.
@@ -52,9 +50,6 @@ impl SimdLevel {
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            if x86::has_avx512() {
-                return Self(Level::Avx512);
-            }
             if x86::has_avx2() {
                 return Self(Level::Avx2);
             }
@@ -69,8 +64,6 @@ impl SimdLevel {
             Level::Baseline,
             #[cfg(target_arch = "x86_64")]
             Level::Avx2,
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512,
         ];
         all.into_iter()
             .map(Self)
@@ -83,8 +76,6 @@ impl SimdLevel {
             Level::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => "AVX2",
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => "AVX-512",
         }
     }
 
@@ -98,9 +89,6 @@ impl SimdLevel {
             // SAFETY: a level is made only by `detect` and `available`, which
             // find these instructions on the machine.
             Level::Avx2 => unsafe { x86::run_avx2(work) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: as above.
-            Level::Avx512 => unsafe { x86::run_avx512(work) },
         }
     }
 }
@@ -110,20 +98,14 @@ impl SimdLevel {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::super::Pair;
-    use super::super::x86::{F32x8, F32x16};
+    use super::super::x86::F32x8;
     use super::{InstructionSet, SimdWork};
 
     struct Avx2;
-    struct Avx512;
 
     impl InstructionSet for Avx2 {
         type Eight = F32x8;
         type Sixteen = Pair<F32x8>;
-    }
-
-    impl InstructionSet for Avx512 {
-        type Eight = F32x8;
-        type Sixteen = F32x16;
     }
 
     #[inline]
@@ -133,18 +115,8 @@ mod x86 {
             && std::arch::is_x86_feature_detected!("popcnt")
     }
 
-    #[inline]
-    pub(super) fn has_avx512() -> bool {
-        has_avx2() && std::arch::is_x86_feature_detected!("avx512f")
-    }
-
     #[target_feature(enable = "avx2,bmi1,popcnt")]
     pub(super) fn run_avx2<W: SimdWork>(work: W) -> W::Output {
         work.run::<Avx2>()
-    }
-
-    #[target_feature(enable = "avx512f,avx2,bmi1,popcnt")]
-    pub(super) fn run_avx512<W: SimdWork>(work: W) -> W::Output {
-        work.run::<Avx512>()
     }
 }

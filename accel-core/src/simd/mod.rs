@@ -25,6 +25,7 @@
 //! }
 //! ```
 
+mod doubles;
 mod four;
 mod lanes;
 mod level;
@@ -32,6 +33,7 @@ mod pair;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use doubles::{Doubles, PairOfDoubles};
 pub use four::F32x4;
 pub use lanes::Lanes;
 pub use level::{InstructionSet, SimdLevel, SimdWork};

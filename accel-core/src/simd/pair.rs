@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::Lanes;
+use super::{Lanes, PairOfDoubles};
 
 /// Twice the lanes of `L`.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,8 @@ impl<L: Lanes> Mul for Pair<L> {
 #[allow(unsafe_code)]
 impl<L: Lanes> Lanes for Pair<L> {
     const COUNT: usize = 2 * L::COUNT;
+
+    type Doubles = PairOfDoubles<L::Doubles>;
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -73,5 +75,13 @@ impl<L: Lanes> Lanes for Pair<L> {
     #[inline(always)]
     fn lt_mask(self, other: Self) -> u32 {
         self.0.lt_mask(other.0) | self.1.lt_mask(other.1) << L::COUNT
+    }
+    #[inline(always)]
+    fn to_doubles(self) -> Self::Doubles {
+        PairOfDoubles(self.0.to_doubles(), self.1.to_doubles())
+    }
+    #[inline(always)]
+    fn from_doubles(doubles: Self::Doubles) -> Self {
+        Self(L::from_doubles(doubles.0), L::from_doubles(doubles.1))
     }
 }

@@ -39,6 +39,7 @@ fn agrees_with_scalars<L: Lanes>() {
             };
             assert_eq!(x.le_mask(y), mask(f32::le), "{x:?} {y:?}");
             assert_eq!(x.lt_mask(y), mask(f32::lt), "{x:?} {y:?}");
+            same_doubles(x, y);
             let all = L::splat(a);
             assert!(all.lanes().iter().all(|lane| lane.to_bits() == a.to_bits()));
         }
@@ -54,6 +55,28 @@ fn same<L: Lanes>(result: L, x: L, y: L, scalar: impl Fn(f32, f32) -> f32) {
             actual.to_bits() == expected.to_bits() || (actual.is_nan() && expected.is_nan());
         assert!(is_same, "lane {lane}: {actual} {expected}");
     }
+}
+
+/// As [`same`], in double precision, rounded afterwards.
+fn same_doubles<L: Lanes>(x: L, y: L) {
+    let scalar = |operation: fn(f64, f64) -> f64| {
+        move |a: f32, b: f32| operation(f64::from(a), f64::from(b)) as f32
+    };
+    let (a, b) = (x.to_doubles(), y.to_doubles());
+    same(L::from_doubles(a), x, y, |a, _| a);
+    same(L::from_doubles(a + b), x, y, scalar(|a, b| a + b));
+    same(L::from_doubles(a - b), x, y, scalar(|a, b| a - b));
+    same(L::from_doubles(a * b), x, y, scalar(|a, b| a * b));
+    same(L::from_doubles(a / b), x, y, scalar(|a, b| a / b));
+    assert_eq!(a.le_mask(b), x.le_mask(y));
+    let third = L::Doubles::splat(1.0 / 3.0);
+    same(
+        L::from_doubles(a * third),
+        x,
+        y,
+        scalar(|a, _| a * (1.0 / 3.0)),
+    );
+    assert_eq!(L::Doubles::COUNT, L::COUNT);
 }
 
 struct Check;

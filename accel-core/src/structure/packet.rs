@@ -88,7 +88,7 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
     fn closest_hits_packet<R: Ray + Sync>(&self, rays: &[R]) -> Vec<Option<Hit>> {
         let mut hits = vec![None; rays.len()];
         for_each_batch(rays, &mut hits, &|rays, hits| {
-            self.trace_closest_packets(rays, hits)
+            self.trace_closest_packets(rays, hits);
         });
         hits
     }

@@ -3,6 +3,7 @@
 
 pub mod agreement;
 pub mod closed;
+pub mod damage;
 mod edge;
 pub mod families;
 pub mod family_check;

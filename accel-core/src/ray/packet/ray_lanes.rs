@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use super::SharedFacts;
+use crate::geometry::Aabb;
 use crate::ray::PreparedRay;
 use crate::ray::prepared::{FAR_PAD, NEAR_PAD};
 use crate::simd::Lanes;
@@ -18,6 +20,7 @@ pub struct RayLanes<L> {
     /// The smallest `t` of interest.
     pub t_min: L,
     pub(crate) shear: [L; 2],
+    pub(crate) along: L,
 }
 
 impl<L: Lanes> RayLanes<L> {
@@ -31,6 +34,7 @@ impl<L: Lanes> RayLanes<L> {
             far_reciprocal: [zero; 3],
             t_min: L::splat(ray.t_min()),
             shear: [L::splat(ray.shear().x), L::splat(ray.shear().y)],
+            along: L::splat(ray.shear().along),
         };
         for axis in 0..3 {
             lanes.origin[axis] = L::splat(ray.origin()[axis]);
@@ -49,6 +53,7 @@ impl<L: Lanes> RayLanes<L> {
         self.t_min.lanes_mut()[lane] = ray.t_min();
         self.shear[0].lanes_mut()[lane] = ray.shear().x;
         self.shear[1].lanes_mut()[lane] = ray.shear().y;
+        self.along.lanes_mut()[lane] = ray.shear().along;
     }
 
     /// Pads the reciprocals, as [`PreparedRay::new`] does.
@@ -96,13 +101,34 @@ impl<L: Lanes> RayLanes<L> {
         plane: impl Fn(usize, bool) -> f32,
     ) -> (L, L) {
         let (mut near, mut far) = (self.t_min, t_max);
-        for axis in 0..3 {
-            let entry = L::splat(plane(axis, signs[axis]));
-            let exit = L::splat(plane(axis, !signs[axis]));
+        for (axis, &is_negative) in signs.iter().enumerate() {
+            let entry = L::splat(plane(axis, is_negative));
+            let exit = L::splat(plane(axis, !is_negative));
             near = near.max_or_keep((entry - self.origin[axis]) * self.near_reciprocal[axis]);
             far = far.min_or_keep((exit - self.origin[axis]) * self.far_reciprocal[axis]);
         }
         (near, far)
+    }
+
+    /// Where the whole lines enter and leave a box: [`PreparedRay::slab`].
+    #[inline(always)]
+    pub(crate) fn whole_slab(&self, shared: &SharedFacts, bounds: &Aabb) -> (L, L) {
+        let whole = Self {
+            t_min: L::splat(f32::NEG_INFINITY),
+            ..*self
+        };
+        let end = L::splat(f32::INFINITY);
+        let plane = |axis: usize, high| {
+            if high {
+                bounds.max[axis]
+            } else {
+                bounds.min[axis]
+            }
+        };
+        match &shared.signs {
+            Some(signs) => whole.slab_by_sign(signs, end, plane),
+            None => whole.slab(end, plane),
+        }
     }
 
     /// The slab test for directions of any signs: the nearer plane of an axis is

@@ -3,7 +3,7 @@
 //! like (Ize 2008, Table 3), what rays cost (Table 2), and how fast they are.
 //!
 //! ```sh
-//! cargo run --release -p accel-kdtree --example against_bvh -- MESH.obj [x,y,z,x,y,z,fov]
+//! cargo run --release -p accel-kdtree --example kd_tree_against_bvh -- MESH.obj [x,y,z,x,y,z,fov]
 //! ```
 //!
 //! The camera is given by where it stands, what it looks at, and its vertical
