@@ -61,7 +61,7 @@ pub(super) static ROWS: &[Row] = &[
     Row {
         name: "kdtree-sweep-16-packet",
         is_headline: false,
-        about: "kdtree-sweep in packets of 16 rays, two vectors one after the other",
+        about: "kdtree-sweep in packets of 16 rays, one vector of 16 lanes",
         settings: "as kdtree-sweep; coherent rays only",
         heuristic: kd_heuristic,
         build: build_kdtree::<16>,
