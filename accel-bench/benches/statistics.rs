@@ -4,9 +4,14 @@
 //! traversal with `()`, the same with counters, and a loop written by hand over
 //! the same words, without queries, storage or statistics. All three give the
 //! same hits, which is asserted before anything is timed.
+//!
+//! The ratios come from rounds that take the three in turn, so that what disturbs
+//! the machine disturbs all alike. Criterion's figures for each follow.
 
 use std::hint::black_box;
+use std::time::Instant;
 
+use accel_bench::report::model::Spread;
 use accel_bench::scene::embedded;
 use accel_bvh::{AccelerationStructure, Bvh, BvhBuilder, Hit, PreparedRay, RaySegment, Triangle};
 use accel_core::glam::Vec3;
@@ -141,6 +146,12 @@ impl ByHand {
     }
 }
 
+/// Rounds of which the ratios are taken.
+const ROUNDS: usize = 201;
+
+/// A way to find the closest hits of all rays; returns how many rays hit.
+type Way<'a> = (&'a str, Box<dyn Fn() -> usize + 'a>);
+
 fn statistics(criterion: &mut Criterion) {
     let scene = embedded::find("room").expect("the room is embedded");
     let mesh = scene.mesh();
@@ -153,35 +164,73 @@ fn statistics(criterion: &mut Criterion) {
     for ray in &rays {
         assert_eq!(bvh.closest_hit(ray), by_hand.closest_hit(ray));
     }
+    let ways = three_ways(&bvh, &by_hand, &rays);
+    print_interleaved_ratios(&ways);
     let mut group = criterion.benchmark_group("closest hit of 19,200 rays");
-    group.bench_function("without statistics", |bench| {
-        bench.iter(|| {
-            rays.iter()
-                .filter(|ray| bvh.closest_hit(black_box(ray)).is_some())
-                .count()
-        });
-    });
-    group.bench_function("with counters", |bench| {
-        bench.iter(|| {
-            let mut counters = TraversalCounters::default();
-            let hits = rays
-                .iter()
-                .filter(|ray| {
-                    bvh.closest_hit_with(black_box(ray), &mut counters)
-                        .is_some()
-                })
-                .count();
-            (hits, counters)
-        });
-    });
-    group.bench_function("by hand", |bench| {
-        bench.iter(|| {
-            rays.iter()
-                .filter(|ray| by_hand.closest_hit(black_box(ray)).is_some())
-                .count()
-        });
-    });
+    for (name, way) in &ways {
+        group.bench_function(*name, |bench| bench.iter(way));
+    }
     group.finish();
+}
+
+fn three_ways<'a>(
+    bvh: &'a Bvh<Triangle>,
+    by_hand: &'a ByHand,
+    rays: &'a [RaySegment],
+) -> [Way<'a>; 3] {
+    let without = || {
+        let hits = rays.iter().map(|ray| bvh.closest_hit(black_box(ray)));
+        hits.flatten().count()
+    };
+    let with_counters = || {
+        let mut counters = TraversalCounters::default();
+        let hits = rays
+            .iter()
+            .map(|ray| bvh.closest_hit_with(black_box(ray), &mut counters));
+        let count = hits.flatten().count();
+        black_box(counters);
+        count
+    };
+    let by_hand = || {
+        let hits = rays.iter().map(|ray| by_hand.closest_hit(black_box(ray)));
+        hits.flatten().count()
+    };
+    [
+        ("by hand", Box::new(by_hand)),
+        ("without statistics", Box::new(without)),
+        ("with counters", Box::new(with_counters)),
+    ]
+}
+
+/// Times relative to the first way: of each round, in which each way has its
+/// turn and another goes first every time.
+#[expect(clippy::print_stdout, reason = "criterion prints here too")]
+fn print_interleaved_ratios(ways: &[Way<'_>; 3]) {
+    let rounds: Vec<[f64; 3]> = (0..ROUNDS)
+        .map(|round| {
+            let mut seconds = [0.0; 3];
+            for turn in 0..3 {
+                let way = (turn + round) % 3;
+                let start = Instant::now();
+                black_box(ways[way].1());
+                seconds[way] = start.elapsed().as_secs_f64();
+            }
+            seconds
+        })
+        .collect();
+    println!("time relative to the loop by hand, {ROUNDS} rounds in turn:");
+    for (way, (name, _)) in ways.iter().enumerate() {
+        let ratios: Vec<f64> = rounds.iter().map(|round| round[way] / round[0]).collect();
+        let milliseconds: Vec<f64> = rounds.iter().map(|round| round[way] * 1e3).collect();
+        let ratio = Spread::with_confidence(&ratios);
+        println!(
+            "{name:>20}: {:.3} [{:.3}, {:.3}], median {:.2} ms",
+            ratio.median,
+            ratio.min,
+            ratio.max,
+            Spread::of(&milliseconds).median
+        );
+    }
 }
 
 criterion_group!(benches, statistics);

@@ -142,6 +142,9 @@ fn what_can_not_be_done_is_refused_with_a_reason() {
     );
     assert_refused(here, &["compare", "missing.obj"], &["missing.obj"]);
     assert_refused(here, &["compare", "."], &["."]);
+    for name in ["room@0", "room@many", "room@999999999"] {
+        assert_refused(here, &["compare", name], &[name, "20000000"]);
+    }
     assert_refused(here, &["compare", "bad.obj"], &["bad.obj", "2"]);
     assert_refused(here, &["compare", "empty.obj"], &["empty.obj"]);
     assert_refused(

@@ -1,6 +1,6 @@
 //! Settings, and the way from primitives to a tree.
 
-use accel_core::build::{Division, TopDown, build_top_down};
+use accel_core::build::{Division, TopDown, build_top_down, share_by_size};
 use accel_core::reference::gather;
 use accel_core::{BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Polygonal};
 
@@ -214,9 +214,7 @@ impl<P: Polygonal> Strategy<'_, P> {
 fn children(task: &Task, split: &Split, cells: [Polytope; 2]) -> [Task; 2] {
     let left = task.duplicates - split.straddling.min(task.duplicates);
     let parts = task.pieces.divide(&split.plane, split.planar_in_front);
-    let total = (parts[0].len() + parts[1].len()).max(1);
-    let shares = [0, 1]
-        .map(|side: usize| (left as u128 * parts[side].len() as u128 / total as u128) as usize);
+    let shares = share_by_size(left, parts.each_ref().map(Pieces::len));
     let [behind, in_front] = parts;
     let [cell_behind, cell_in_front] = cells;
     [

@@ -57,6 +57,7 @@ mod layout;
 mod leaf_rule;
 mod node;
 mod node_rules;
+mod packet;
 mod persistence;
 mod reading;
 mod refit;
@@ -77,7 +78,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PreparedRay, Primitive, Query, Ray,
-    RaySegment, RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    ClosestHit, Filtered, Hit, InPackets, InvalidPrimitives, LoadError, PacketTraversal,
+    PreparedRay, Primitive, Query, Ray, RaySegment, RefitError, Sphere, SurfaceAreaHeuristic,
+    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

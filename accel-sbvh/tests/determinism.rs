@@ -40,7 +40,7 @@ fn the_tree_does_not_depend_on_the_number_of_threads() {
     ];
     // Large enough to fork and to search all axes at once.
     for family in ["hairball", "soup-mixed-sizes"] {
-        let triangles = families::find(family).expect(family).scene(7, 12_000);
+        let triangles = families::find(family).expect(family).scene(7, 10_000);
         for builder in builders {
             let one = in_pool(1, &triangles, &builder);
             for threads in [2, 3, 8] {

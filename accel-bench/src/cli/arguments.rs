@@ -70,7 +70,7 @@ impl SceneOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct CompareOptions {
-    /// Embedded scenes by name, or OBJ files; three embedded ones if left out
+    /// Embedded scenes by name, `name@count` for another size, or OBJ files; three embedded ones if left out
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
     /// Structures by name, or `all`; one or a few of each crate if left out
@@ -100,7 +100,7 @@ pub(super) struct CompareOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyOptions {
-    /// Embedded scenes by name, or OBJ files
+    /// Embedded scenes by name, `name@count` for another size, or OBJ files
     #[arg(value_name = "SCENE", required = true)]
     pub scenes: Vec<String>,
     /// Rays of each kind
@@ -158,7 +158,7 @@ pub(super) struct PaperOptions {
     /// The paper
     #[arg(value_enum)]
     pub paper: Paper,
-    /// Embedded scenes by name, or OBJ files; the paper's cases among the
+    /// Embedded scenes by name, `name@count` for another size, or OBJ files; the paper's cases among the
     /// embedded ones if left out
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,

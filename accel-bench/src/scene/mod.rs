@@ -46,6 +46,12 @@ pub enum SceneError {
         /// The embedded scenes.
         known: String,
     },
+    /// An embedded scene of no or too many triangles.
+    #[error("`{name}`: an embedded scene has from 1 to {MOST_TRIANGLES} triangles")]
+    TriangleCount {
+        /// What was asked for.
+        name: String,
+    },
     /// A mesh has an index without a position.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -64,15 +70,23 @@ pub enum SceneError {
     },
 }
 
+/// Triangles that an embedded scene may be asked for.
+const MOST_TRIANGLES: usize = 20_000_000;
+
 impl Scene {
-    /// The embedded scene or OBJ file called `name`. Triangles without finite
-    /// corners are refused unless `invalid` says to skip them.
+    /// The embedded scene or OBJ file called `name`; `name@count` is the embedded
+    /// scene with about so many triangles. Triangles without finite corners are
+    /// refused unless `invalid` says to skip them.
     ///
     /// # Errors
     /// [`SceneError`] names the scene and what is wrong with it.
     pub fn load(name: &str, invalid: InvalidPrimitives) -> Result<Self, SceneError> {
-        let scene = match embedded::find(name) {
-            Some(embedded) => Self::of_embedded(embedded)?,
+        let (embedded, count) = match name.split_once('@') {
+            Some((name, count)) => (embedded::find(name), Some(count)),
+            None => (embedded::find(name), None),
+        };
+        let scene = match embedded {
+            Some(embedded) => Self::of_embedded(embedded, name, count)?,
             None => Self::of_file(name)?,
         };
         let faulty = scene.invalid_triangles();
@@ -109,10 +123,22 @@ impl Scene {
             .collect()
     }
 
-    fn of_embedded(embedded: &embedded::EmbeddedScene) -> Result<Self, SceneError> {
-        let mesh = embedded.mesh();
+    fn of_embedded(
+        embedded: &embedded::EmbeddedScene,
+        name: &str,
+        count: Option<&str>,
+    ) -> Result<Self, SceneError> {
+        let mesh = match count.map(str::parse) {
+            None => embedded.mesh(),
+            Some(Ok(count)) if (1..=MOST_TRIANGLES).contains(&count) => embedded.mesh_of(count),
+            Some(_) => {
+                return Err(SceneError::TriangleCount {
+                    name: name.to_owned(),
+                });
+            }
+        };
         Ok(Self {
-            name: embedded.name.to_owned(),
+            name: name.to_owned(),
             triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
             camera: embedded.camera(),
             faults: String::new(),

@@ -7,6 +7,7 @@ pub mod damage;
 mod edge;
 pub mod families;
 pub mod family_check;
+pub mod mesh_file;
 mod random;
 pub mod rays;
 #[cfg(feature = "proptest")]

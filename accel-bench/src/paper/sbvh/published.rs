@@ -183,7 +183,8 @@ const BUBS: PublishedScene = PublishedScene {
 pub(super) fn find(scene: &str) -> Option<&'static PublishedScene> {
     let scene = scene.to_lowercase();
     let is_rotated = scene.contains("rotated");
-    match scene.as_str() {
+    let embedded = scene.split('@').next().unwrap_or_default();
+    match embedded {
         "colonnade-45" => Some(&ROTATED_SPONZA),
         "stadium" => Some(&BUBS),
         _ if scene.contains("sponza") && is_rotated => Some(&ROTATED_SPONZA),

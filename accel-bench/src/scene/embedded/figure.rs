@@ -1,5 +1,5 @@
-//! A rounded figure, about two units tall, standing at the origin: evenly and
-//! finely tessellated, nothing in it is hard.
+//! A rounded figure, about two units tall, standing at the origin: a skin that is
+//! evenly and finely tessellated, nothing in it is hard.
 
 use std::f32::consts::PI;
 
@@ -12,9 +12,7 @@ use crate::scene::{Mesh, camera::Camera};
 
 /// The figure alone. The seed shapes its skin.
 pub fn figure(triangles: usize, seed: u64) -> Mesh {
-    let mut builder = MeshBuilder::default();
-    build(&mut builder, triangles, seed);
-    builder.finish()
+    build(triangles, seed).finish()
 }
 
 /// From the front and the right, and its face.
@@ -25,20 +23,31 @@ pub fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// Puts the figure into an empty builder.
-pub(super) fn build(builder: &mut MeshBuilder, triangles: usize, seed: u64) {
-    let weight = PARTS.iter().map(Part::area).sum();
-    let mut budget = TriangleBudget::new(triangles, weight);
-    for part in PARTS {
-        let share = budget.share(builder.triangle_count(), part.area());
-        part.build(builder, share);
-    }
+/// A builder that holds the figure.
+pub(super) fn build(triangles: usize, seed: u64) -> MeshBuilder {
+    // How much of the parts lies within others shows once they are built.
+    let visible = skin(triangles).triangle_count().max(1);
+    let mut builder = skin((triangles as f64 * triangles as f64 / visible as f64) as usize);
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let phase = Vec3::from([(); 3].map(|()| random.random_range(0.0..PI)));
     builder.displace(|point| {
         let wave = |v: Vec3| Vec3::new(v.y.sin() + v.z.cos(), v.z.sin() + v.x.cos(), v.x.sin());
         0.008 * wave(point * 11.0 + phase) + 0.0025 * wave(point * 47.0 - phase)
     });
+    builder
+}
+
+/// The parts from `triangles` triangles, without those that nobody sees.
+fn skin(triangles: usize) -> MeshBuilder {
+    let mut builder = MeshBuilder::default();
+    let weight = PARTS.iter().map(Part::area).sum();
+    let mut budget = TriangleBudget::new(triangles, weight);
+    for part in PARTS {
+        let share = budget.share(builder.triangle_count(), part.area());
+        part.build(&mut builder, share);
+    }
+    builder.retain(|corners| !PARTS.iter().any(|part| part.hides(corners)));
+    builder
 }
 
 /// What the figure is made of.
@@ -106,6 +115,20 @@ impl Part {
                 radii: [a, b, c], ..
             } => 4.0 * PI * (a * b + b * c + c * a) / 3.0,
             Self::Limb { points, radii } => PI * (radii[0] + radii[1]) * length(points),
+        }
+    }
+
+    /// Whether a triangle lies within this part. Limbs hide nothing: where they
+    /// meet another part they are the ones that end.
+    fn hides(&self, corners: &[Vec3; 3]) -> bool {
+        // A part's own triangles lie on it, within rounding.
+        const WITHIN: f32 = 0.999;
+        match *self {
+            Self::Ellipsoid { center, radii } => corners.iter().all(|&corner| {
+                let offset = (corner - Vec3::from(center)) / Vec3::from(radii);
+                offset.length() < WITHIN
+            }),
+            Self::Limb { .. } => false,
         }
     }
 

@@ -110,7 +110,7 @@ static SCENES: &[EmbeddedScene] = &[
     EmbeddedScene {
         name: "figure",
         description: "the figure of the stadium, alone",
-        default_triangles: 66_500,
+        default_triangles: 100_000,
         generate: figure,
         cameras: figure::cameras,
     },

@@ -166,6 +166,15 @@ impl MeshBuilder {
         });
     }
 
+    /// Drops the triangles whose corners `keep` refuses.
+    pub(super) fn retain(&mut self, keep: impl Fn(&[Vec3; 3]) -> bool) {
+        let Mesh {
+            positions,
+            triangles,
+        } = &mut self.mesh;
+        triangles.retain(|triangle| keep(&triangle.map(|index| positions[index as usize])));
+    }
+
     /// Moves every vertex so far by what `offset` says of it.
     pub(super) fn displace(&mut self, offset: impl Fn(Vec3) -> Vec3) {
         for position in &mut self.mesh.positions {

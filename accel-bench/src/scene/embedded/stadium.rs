@@ -1,20 +1,22 @@
 //! A dense figure in a coarse stadium: the case that Stich 2009, section 5,
 //! shows with the scene Bubs. The figure holds 95 % of the triangles in a
-//! ten-thousandth of the volume, and the few large triangles around it spoil the
-//! boxes near the root.
+//! ten-thousandth of the volume, and the few long triangles around it, of cables
+//! that cross the pitch in all directions, spoil the boxes near the root.
 
 use accel_core::glam::Vec3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 use super::figure;
 use super::shapes::{MeshBuilder, full_turn};
 use crate::scene::{Mesh, camera::Camera};
 
-/// The figure at the centre of the pitch. The seed shapes its skin.
+/// The figure at the centre of the pitch. The seed shapes its skin and strings
+/// the cables.
 pub fn stadium(triangles: usize, seed: u64) -> Mesh {
-    let mut builder = MeshBuilder::default();
-    figure::build(&mut builder, triangles * 95 / 100, seed);
+    let mut builder = figure::build(triangles * 95 / 100, seed);
     let rest = triangles.saturating_sub(builder.triangle_count());
-    surroundings(&mut builder, rest);
+    surroundings(&mut builder, rest, seed);
     builder.finish()
 }
 
@@ -26,8 +28,9 @@ pub fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// The ground and the stands on it; from 400 triangles on with masts and goals.
-fn surroundings(builder: &mut MeshBuilder, triangles: usize) {
+/// The ground and the stands on it; from 400 triangles on with masts, goals and
+/// cables.
+fn surroundings(builder: &mut MeshBuilder, triangles: usize, seed: u64) {
     let goal = builder.triangle_count() + triangles;
     let corner = Vec3::new(-92.0, 0.0, -72.0);
     builder.quad(corner, Vec3::Z * 144.0, Vec3::X * 184.0, [1, 1]);
@@ -37,9 +40,10 @@ fn surroundings(builder: &mut MeshBuilder, triangles: usize) {
             mast(builder, Vec3::new(side * 72.0, 0.0, -60.0));
             mast(builder, Vec3::new(side * 72.0, 0.0, 60.0));
         }
+        cables(builder, (triangles / 70).min(48), seed);
     }
     let left = goal.saturating_sub(builder.triangle_count());
-    let tiers = ((left as f32 / 16.0).sqrt() as usize).clamp(1, 30);
+    let tiers = ((left as f32 / 16.0).sqrt() as usize).clamp(1, 12);
     stands(builder, tiers, left);
 }
 
@@ -63,6 +67,20 @@ fn mast(builder: &mut MeshBuilder, foot: Vec3) {
         head - Vec3::new(3.0, 2.0, 0.3),
         head + Vec3::new(3.0, 2.0, 0.3),
     );
+}
+
+/// Cables from anywhere in the stands to anchors anywhere on and over the pitch.
+fn cables(builder: &mut MeshBuilder, count: usize, seed: u64) {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    for _ in 0..count {
+        let (sin, cos) = full_turn(random.random());
+        let height = random.random_range(4.0..24.0);
+        let stand = Vec3::new(66.0 * cos, height, 46.0 * sin);
+        let (sin, cos) = full_turn(random.random());
+        let out = 40.0 * random.random::<f32>().sqrt();
+        let anchor = Vec3::new(out * cos, random.random_range(0.0..2.5), out * sin);
+        builder.tube(&[stand, anchor], |_| 0.05, 4);
+    }
 }
 
 /// Oval tiers, each a riser and a tread, an outer wall and a roof over the upper
