@@ -68,7 +68,7 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
     print_counts("h-tree", &h_tree, &count(&h_tree, &rays), &bvh, &source);
     print_counts("compact", &compact, &count(&compact, &rays), &bvh, &source);
     let names = ["identical", "similar", "BIH", "H-tree", "Compact BVH"];
-    let answers: [&dyn Fn(&[RaySegment]) -> f64; 6] = [
+    let answers: [Answer<'_>; 6] = [
         &|rays| answer(&bvh, rays),
         &|rays| answer(&identical, rays),
         &|rays| answer(&similar, rays),
@@ -119,8 +119,11 @@ fn print_counts(
     );
 }
 
+/// The milliseconds that a structure takes for some rays.
+type Answer<'a> = &'a dyn Fn(&[RaySegment]) -> f64;
+
 /// Times of the structures behind the first one, against its.
-fn print_times(names: &[&str], answers: &[&dyn Fn(&[RaySegment]) -> f64], rays: &[RaySegment]) {
+fn print_times(names: &[&str], answers: &[Answer<'_>], rays: &[RaySegment]) {
     let mut ratios = vec![Vec::new(); names.len()];
     let mut base_times = Vec::new();
     for rays in (0..ROUNDS).flat_map(|_| rays.chunks(TURN)) {
