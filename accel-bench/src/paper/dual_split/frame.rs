@@ -66,7 +66,7 @@ impl Frame {
                 note: None,
             })
             .collect();
-        let timings = measure::time_rounds(structures, &turns, rounds, || ());
+        let timings = measure::time_rounds(structures, &turns, rounds, |_, _| true, || ());
         let time = |structure: usize, round: usize| -> f64 {
             let turns = turns.iter().zip(&timings[structure]);
             turns

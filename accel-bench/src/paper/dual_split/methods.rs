@@ -109,7 +109,7 @@ fn compact(bvh: &Bvh<Triangle>) -> Result<Method, BuildError> {
 
 /// Inner nodes and leaves.
 fn node_count(bvh: &Bvh<Triangle>) -> usize {
-    let bytes = std::mem::size_of_val(bvh.node_words());
+    let bytes = size_of_val(bvh.node_words());
     let inner = bytes / (accel_bvh::INNER_NODE_BYTES + accel_bvh::LEAF_NODE_BYTES);
     if bytes == 0 { 0 } else { 2 * inner + 1 }
 }
