@@ -10,24 +10,26 @@
 //! few thousand rays. Ratios are medians over all turns.
 #![allow(clippy::print_stdout)]
 
+mod meshes;
+
 use std::hint::black_box;
 use std::time::Instant;
 
+use accel_bvh::CompactBvh;
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
-    AccelerationStructure, Bvh, BvhBuilder, DualSplitConverter, DualSplitTree, ObjectSplit,
-    Partitioning, RaySegment, TraversalCounters, Triangle,
+    AccelerationStructure, BihConverter, Bvh, BvhBuilder, DualSplitConverter, HTreeConverter,
+    ObjectSplit, Partitioning, RaySegment, TraversalCounters, Triangle,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-const PATHS: usize = 40_000;
 const ROUNDS: usize = 7;
 const TURN: usize = 4096;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for path in std::env::args().skip(1) {
-        let triangles = triangles_of(&std::fs::read_to_string(&path)?)?;
+        let triangles = meshes::triangles_of(&std::fs::read_to_string(&path)?)?;
         println!("{path}: {} triangles", triangles.len());
         compare(&triangles)?;
     }
@@ -61,7 +63,22 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
         print_counts(name, tree, &count(tree, &rays), &bvh, &source);
         println!("    {:?}", tree.node_statistics());
     }
-    print_times(&bvh, [&identical, &similar], &rays);
+    let bih = BihConverter::default().convert(&bvh)?;
+    let h_tree = HTreeConverter::default().convert(&bvh)?;
+    let compact = CompactBvh::from_bvh(&bvh)?;
+    print_counts("bih", &bih, &count(&bih, &rays), &bvh, &source);
+    print_counts("h-tree", &h_tree, &count(&h_tree, &rays), &bvh, &source);
+    print_counts("compact", &compact, &count(&compact, &rays), &bvh, &source);
+    let names = ["identical", "similar", "BIH", "H-tree", "Compact BVH"];
+    let answers: [Answer<'_>; 6] = [
+        &|rays| answer(&bvh, rays),
+        &|rays| answer(&identical, rays),
+        &|rays| answer(&similar, rays),
+        &|rays| answer(&bih, rays),
+        &|rays| answer(&h_tree, rays),
+        &|rays| answer(&compact, rays),
+    ];
+    print_times(&names, &answers, &rays);
     Ok(())
 }
 
@@ -104,21 +121,24 @@ fn print_counts(
     );
 }
 
-fn print_times(bvh: &Bvh<Triangle>, trees: [&DualSplitTree<Triangle>; 2], rays: &[RaySegment]) {
-    let mut ratios = [const { Vec::new() }; 2];
-    let mut bvh_times = Vec::new();
+/// The milliseconds that a structure takes for some rays.
+type Answer<'a> = &'a dyn Fn(&[RaySegment]) -> f64;
+
+/// Times of the structures behind the first one, against its.
+fn print_times(names: &[&str], answers: &[Answer<'_>], rays: &[RaySegment]) {
+    let mut ratios = vec![Vec::new(); names.len()];
+    let mut base_times = Vec::new();
     for rays in (0..ROUNDS).flat_map(|_| rays.chunks(TURN)) {
-        let bvh_time = answer(bvh, rays);
-        bvh_times.push(rays.len() as f64 / bvh_time / 1e3);
-        for (ratios, tree) in ratios.iter_mut().zip(trees) {
-            ratios.push(answer(tree, rays) / bvh_time);
+        let base = answers[0](rays);
+        base_times.push(rays.len() as f64 / base / 1e3);
+        for (ratios, answer) in ratios.iter_mut().zip(&answers[1..]) {
+            ratios.push(answer(rays) / base);
         }
     }
-    let [identical, similar] = ratios.map(median);
-    println!(
-        "  bvh {:.2} Mrays/s; time against it: identical {identical:.3}, similar {similar:.3}",
-        median(bvh_times)
-    );
+    println!("  bvh {:.2} Mrays/s; times against it:", median(base_times));
+    for (name, ratios) in names.iter().zip(ratios) {
+        println!("    {name:18} {:.3}", median(ratios));
+    }
 }
 
 /// Milliseconds for all rays.
@@ -137,6 +157,13 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
+/// 40,000 unless the environment variable `PATHS` tells another number: fewer are
+/// enough to count instructions.
+fn path_count() -> usize {
+    let count = std::env::var("PATHS").ok();
+    count.and_then(|count| count.parse().ok()).unwrap_or(40_000)
+}
+
 /// Paths from a camera outside or in the middle of the scene: the first ray and
 /// up to five diffuse bounces.
 fn paths(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
@@ -148,7 +175,7 @@ fn paths(bvh: &Bvh<Triangle>) -> Vec<RaySegment> {
     let distance = if is_inside { 0.3 } else { 1.2 };
     let eye = bounds.center() + Vec3::new(0.6, 0.1, 0.7).normalize() * extent * distance;
     let mut rays = Vec::new();
-    for _ in 0..PATHS {
+    for _ in 0..path_count() {
         let target = bounds.center() + extent * 0.4 * (in_cube(&mut random));
         let mut ray = RaySegment::new(eye, target - eye);
         for _ in 0..6 {
@@ -182,38 +209,4 @@ fn on_sphere(random: &mut Pcg64Mcg) -> Vec3 {
             return point / length;
         }
     }
-}
-
-/// The triangles of an OBJ file; polygons are fanned.
-fn triangles_of(text: &str) -> Result<Vec<Triangle>, Box<dyn std::error::Error>> {
-    let mut vertices: Vec<Vec3> = Vec::new();
-    let mut triangles = Vec::new();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let coordinates: Vec<f32> = words.map(str::parse).collect::<Result<_, _>>()?;
-                vertices.push(Vec3::from_slice(&coordinates));
-            }
-            Some("f") => {
-                let corners: Vec<Vec3> = words
-                    .map(|word| {
-                        let index: isize = word.split('/').next().unwrap_or_default().parse()?;
-                        let index = if index < 0 {
-                            vertices.len() as isize + index
-                        } else {
-                            index - 1
-                        };
-                        let vertex = vertices.get(index as usize).copied();
-                        vertex.ok_or_else(|| format!("no vertex {word}").into())
-                    })
-                    .collect::<Result<_, Box<dyn std::error::Error>>>()?;
-                for pair in corners[1..].windows(2) {
-                    triangles.push(Triangle::new(corners[0], pair[0], pair[1]));
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(triangles)
 }

@@ -1,10 +1,11 @@
 //! Which nodes a tree is made of: what tells a dual-split tree, a BIH and an
 //! H-tree apart, once they are built.
 
-use accel_core::statistics::TraversalStatistics;
+use accel_core::PreparedRay;
+use accel_core::statistics::{NodeKind, TraversalStatistics};
 
 use crate::codec::{CarvingPlanes, FirstWord, Header};
-use crate::traversal::PlaneTest;
+use crate::traversal::{AxisTests, SideTests, planes_of, visit_two_planes};
 
 /// A set of nodes that a [`PlaneTree`](crate::PlaneTree) may consist of: those of
 /// dual-split trees, of a BIH or of an H-tree. Sealed.
@@ -19,7 +20,8 @@ impl NodeSet for DualSplitNodes {}
 
 impl Nodes for DualSplitNodes {
     const ARCHIVE_KIND: [u8; 8] = *b"acceldst";
-    const CARVES_SEVERAL_AXES: bool = true;
+
+    type CarvingTest = SideTests;
 
     fn admits(header: Header) -> bool {
         match header {
@@ -37,14 +39,25 @@ impl Nodes for DualSplitNodes {
     }
 
     #[inline(always)]
-    fn carve_several_axes<S: TraversalStatistics>(
-        test: &PlaneTest,
-        node: FirstWord,
+    fn carving_test(ray: &PreparedRay) -> SideTests {
+        SideTests::new(ray)
+    }
+
+    #[inline(always)]
+    fn carve<S: TraversalStatistics>(
+        sides: &SideTests,
+        _: &AxisTests,
         words: &[u32],
         interval: (f32, f32),
+        _: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32) {
-        test.carve_two_axes(node, words, interval, statistics)
+        let node = FirstWord(words[0]);
+        if node.carves() {
+            visit_two_planes(statistics, NodeKind::Carving);
+        }
+        let own = words.first_chunk().expect("padding follows the last node");
+        sides.cut(node, planes_of(own), interval)
     }
 }
 
@@ -53,8 +66,8 @@ pub trait Nodes: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// The name of its archives.
     const ARCHIVE_KIND: [u8; 8];
 
-    /// Whether there are carving nodes on more than one axis.
-    const CARVES_SEVERAL_AXES: bool;
+    /// What carving nodes take of a ray, besides the tests of axes.
+    type CarvingTest;
 
     /// Whether a node with this header belongs to the set.
     fn admits(header: Header) -> bool;
@@ -62,13 +75,19 @@ pub trait Nodes: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Words of the first child of a splitting node.
     fn first_child_words(node: FirstWord) -> u32;
 
-    /// What a carving node on several axes, at the start of `words`, leaves of an
-    /// interval; its visit is told to `statistics`.
-    fn carve_several_axes<S: TraversalStatistics>(
-        test: &PlaneTest,
-        node: FirstWord,
+    /// Prepares a ray for carving nodes.
+    fn carving_test(ray: &PreparedRay) -> Self::CarvingTest;
+
+    /// What a node that does not split, at the start of `words`, leaves of an
+    /// interval; `on_axis` is what it leaves if it carves on one axis. The visit of a
+    /// carving node is told to `statistics`; a plain leaf
+    /// leaves all.
+    fn carve<S: TraversalStatistics>(
+        test: &Self::CarvingTest,
+        axes: &AxisTests,
         words: &[u32],
         interval: (f32, f32),
+        on_axis: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32);
 }

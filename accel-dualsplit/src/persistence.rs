@@ -17,7 +17,7 @@ use accel_core::archive::{
 use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, Primitive};
 
-use crate::codec::{MAX_OFFSET, Node};
+use crate::codec::{MAX_OFFSET, MAX_WORDS, Node, NodeWords};
 use crate::error::PlaneTreeLoadError;
 use crate::node_set::NodeSet;
 use crate::tree::PlaneTree;
@@ -43,8 +43,8 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
         let mut archive = ArchiveWriter::new(N::ARCHIVE_KIND, VERSION, scene);
         archive.push(self.skipped_count() as u32);
         archive.push_bounds(&self.bounds.unwrap_or(Aabb::EMPTY));
-        archive.push_list(self.words.iter().copied());
-        for position in leaf_positions(&self.words) {
+        archive.push_list(self.node_words().iter().copied());
+        for position in leaf_positions(self.node_words()) {
             let leaf = self.node(position).target as u32;
             let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
             archive.push_list(ids.into_iter());
@@ -63,6 +63,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
         let mut leaves = LeafLoader::new(primitives, &mut archive)?;
         let bounds = archive.bounds()?;
         let mut words = archive.list()?;
+        check_limit("words", words.len() as u64, MAX_WORDS as u64)?;
         let depth = check_words::<N>(&words, |_| true)?;
         for position in leaf_positions(&words) {
             let leaf = leaves.read_leaf(&mut archive)?;
@@ -73,7 +74,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
         archive.finish()?;
         let tree = Self {
             bounds: (!words.is_empty()).then_some(bounds),
-            words,
+            words: NodeWords::new(words),
             stored: leaves.finish()?,
             depth,
             nodes: PhantomData,

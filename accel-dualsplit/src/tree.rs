@@ -7,7 +7,7 @@ use accel_core::query::Query;
 use accel_core::statistics::{NodeKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
-use crate::codec::{Header, Node};
+use crate::codec::{Header, Node, NodeWords};
 use crate::node_set::{DualSplitNodes, NodeSet};
 
 /// A dual-split tree. Made from a BVH by a
@@ -18,7 +18,7 @@ pub type DualSplitTree<P> = PlaneTree<P, DualSplitNodes>;
 /// owns its primitives.
 #[derive(Clone, Debug)]
 pub struct PlaneTree<P: Primitive, N: NodeSet> {
-    pub(crate) words: Vec<u32>,
+    pub(crate) words: NodeWords,
     pub(crate) stored: StoredPrimitives<P>,
     /// The box of the root, whose node comes first; `None` where there is
     /// nothing to hit.
@@ -32,7 +32,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
     /// The nodes as stored: the same for equal input and settings, whatever the
     /// number of threads.
     pub fn node_words(&self) -> &[u32] {
-        &self.words
+        self.words.nodes()
     }
 
     /// Splitting nodes on the path from the root that has most of them: as many
@@ -43,7 +43,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
 
     /// The node at a position that an encoder of this crate wrote.
     pub(crate) fn node(&self, position: usize) -> Node {
-        Node::decode(&self.words, position).expect("the tree's own words are sound")
+        Node::decode(self.words.nodes(), position).expect("the tree's own words are sound")
     }
 }
 
@@ -70,7 +70,7 @@ impl<P: Primitive, N: NodeSet> AccelerationStructure for PlaneTree<P, N> {
     }
 
     fn node_bytes(&self) -> usize {
-        size_of_val(self.words.as_slice())
+        size_of_val(self.words.nodes())
     }
 
     /// A carving node that is a leaf counts as two: it carves, then it is a leaf.

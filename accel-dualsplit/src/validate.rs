@@ -15,7 +15,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
     /// # Errors
     /// The first [`ValidationError`] found.
     pub fn validate(&self) -> Result<(), ValidationError> {
-        let actual = check_words::<N>(&self.words, |_| true).unwrap_or(u32::MAX);
+        let actual = check_words::<N>(self.node_words(), |_| true).unwrap_or(u32::MAX);
         if actual != self.depth {
             return Err(ValidationError::DepthMismatch {
                 actual,
@@ -103,6 +103,7 @@ mod tests {
     use rand_pcg::Pcg64Mcg;
 
     use super::*;
+    use crate::codec::NodeWords;
     use crate::{BvhBuilder, DualSplitConverter, DualSplitNodes, DualSplitTree};
 
     /// Words that pass the check are those of some tree: traced, they give an
@@ -112,7 +113,7 @@ mod tests {
         let scene = families::find("soup-mixed-sizes").unwrap().scene(3, 60);
         let bvh = BvhBuilder::default().build(&scene).unwrap();
         let mut tree = DualSplitConverter::default().convert(&bvh).unwrap();
-        let sound = tree.words.clone();
+        let sound = tree.node_words().to_vec();
         let leaves = leaf_numbers(&tree);
         let is_leaf_number = |leaf| leaves.contains(&leaf);
         assert_eq!(
@@ -123,20 +124,21 @@ mod tests {
         let mut random = Pcg64Mcg::seed_from_u64(5);
         let (mut refused, mut traced) = (0, 0);
         for round in 0..100_000 {
-            tree.words.clone_from(&sound);
+            let mut words = sound.clone();
             for _ in 0..1 + round % 3 {
                 let word = random.random_range(0..sound.len());
                 if random.random_range(0..4) == 0 {
-                    tree.words[word] = random.random();
+                    words[word] = random.random();
                 } else {
-                    tree.words[word] ^= 1 << random.random_range(0..32);
+                    words[word] ^= 1 << random.random_range(0..32);
                 }
             }
-            if check_words::<DualSplitNodes>(&tree.words, is_leaf_number).is_err() {
+            if check_words::<DualSplitNodes>(&words, is_leaf_number).is_err() {
                 refused += 1;
                 continue;
             }
             traced += 1;
+            tree.words = NodeWords::new(words);
             let mut counters = TraversalCounters::default();
             tree.closest_hit_with(&rays[round % rays.len()], &mut counters);
             assert!(counters.nodes.max as usize <= sound.len());

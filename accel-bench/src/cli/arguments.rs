@@ -165,7 +165,7 @@ pub(super) struct PaperOptions {
     /// Pixels of each viewpoint, across and down
     #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
-    /// Viewpoints: the camera, and as many more around it
+    /// Viewpoints: the camera, and as many more around it; `dual-split` has one
     #[arg(long, default_value_t = 4, value_name = "N")]
     pub viewpoints: usize,
     /// How long ambient occlusion rays are, in diagonals of the scene
@@ -186,6 +186,8 @@ pub(super) struct PaperOptions {
 pub(super) enum Paper {
     /// Stich, Friedrich and Dietrich 2009: Table 1, Figure 5 and the memory limit
     Sbvh,
+    /// Lin, Shkurko, Mallett and Yuksel 2019: Tables 1 to 3 and Figure 10
+    DualSplit,
 }
 
 #[derive(Debug, Args)]

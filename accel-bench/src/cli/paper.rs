@@ -7,9 +7,10 @@ use anyhow::Context;
 
 use super::arguments::{Paper, PaperOptions};
 use super::{interrupt, load, with_threads};
-use crate::paper::sbvh;
+use crate::paper::{Found, dual_split, sbvh};
 use crate::report::document::{self, Document};
 use crate::report::table::TableStyle;
+use crate::scene::Scene;
 use crate::{environment, progress};
 
 /// Measures, prints, writes; false if a structure disagreed with brute force.
@@ -22,6 +23,7 @@ pub(super) fn run(options: &PaperOptions) -> anyhow::Result<bool> {
     );
     let document = with_threads(options.scene.threads, || match options.paper {
         Paper::Sbvh => of_sbvh(options),
+        Paper::DualSplit => of_dual_split(options),
     })?;
     present(&document, options)?;
     Ok(document.disagreements == 0)
@@ -36,18 +38,45 @@ fn of_sbvh(options: &PaperOptions) -> anyhow::Result<Document> {
         seed: options.scene.seed,
         invalid: options.scene.invalid(),
     };
+    let title = "Spatial splits in bounding volume hierarchies";
+    document(title, sbvh::SOURCE, &sbvh::SCENES, options, |scene| {
+        sbvh::measure(scene, &settings)
+    })
+}
+
+fn of_dual_split(options: &PaperOptions) -> anyhow::Result<Document> {
+    let settings = dual_split::Settings {
+        size: options.size,
+        rounds: options.rounds,
+        seed: options.scene.seed,
+        invalid: options.scene.invalid(),
+    };
+    let (source, scenes) = (dual_split::SOURCE, &dual_split::SCENES);
+    document("Dual-split trees", source, scenes, options, |scene| {
+        dual_split::measure(scene, &settings)
+    })
+}
+
+/// A section for every scene asked for, or for those of the paper.
+fn document(
+    title: &str,
+    source: &str,
+    default_scenes: &[&str],
+    options: &PaperOptions,
+    measure: impl Fn(&Scene) -> anyhow::Result<Found>,
+) -> anyhow::Result<Document> {
     let threads = rayon::current_num_threads();
     let mut document = Document {
         schema: document::SCHEMA,
-        title: "Spatial splits in bounding volume hierarchies".to_owned(),
-        source: sbvh::SOURCE.to_owned(),
+        title: title.to_owned(),
+        source: source.to_owned(),
         environment: environment::describe(threads, options.scene.seed),
         sections: Vec::new(),
         disagreements: 0,
         verified: 0,
     };
     let names: Vec<String> = if options.scenes.is_empty() {
-        sbvh::SCENES.map(str::to_owned).to_vec()
+        default_scenes.iter().copied().map(str::to_owned).collect()
     } else {
         options.scenes.clone()
     };
@@ -58,8 +87,7 @@ fn of_sbvh(options: &PaperOptions) -> anyhow::Result<Document> {
             break;
         }
         let bar = progress::bar(&format!("{}: measuring", scene.name), 1);
-        let found = sbvh::measure(&scene, &settings)
-            .with_context(|| format!("measuring {}", scene.name))?;
+        let found = measure(&scene).with_context(|| format!("measuring {}", scene.name))?;
         bar.finish_and_clear();
         document.sections.push(found.section);
         document.verified += found.verified;

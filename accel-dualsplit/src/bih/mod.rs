@@ -20,13 +20,13 @@
 //! Hierarchy*, Eurographics Symposium on Rendering 2006.
 
 use accel_bvh::Bvh;
-use accel_core::statistics::TraversalStatistics;
-use accel_core::{BuildBudget, BuildError, Primitive};
+use accel_core::statistics::{NodeKind, TraversalStatistics};
+use accel_core::{BuildBudget, BuildError, PreparedRay, Primitive};
 
 use crate::codec::{CarvingPlanes, FirstWord, Header};
 use crate::convert::{CarvingRules, NodeCosts, Partitioning};
 use crate::node_set::{NodeSet, Nodes};
-use crate::traversal::PlaneTest;
+use crate::traversal::{AxisTests, visit_two_planes};
 use crate::tree::PlaneTree;
 
 /// A bounding interval hierarchy. Made from a BVH by a [`BihConverter`].
@@ -91,7 +91,8 @@ impl NodeSet for BihNodes {}
 
 impl Nodes for BihNodes {
     const ARCHIVE_KIND: [u8; 8] = *b"accelbih";
-    const CARVES_SEVERAL_AXES: bool = false;
+
+    type CarvingTest = ();
 
     fn admits(header: Header) -> bool {
         match header {
@@ -109,13 +110,21 @@ impl Nodes for BihNodes {
     }
 
     #[inline(always)]
-    fn carve_several_axes<S: TraversalStatistics>(
-        _: &PlaneTest,
-        _: FirstWord,
-        _: &[u32],
+    fn carving_test(_: &PreparedRay) {}
+
+    #[inline(always)]
+    fn carve<S: TraversalStatistics>(
+        (): &(),
+        _: &AxisTests,
+        words: &[u32],
         interval: (f32, f32),
-        _: &mut S,
+        on_axis: (f32, f32),
+        statistics: &mut S,
     ) -> (f32, f32) {
-        interval
+        if FirstWord(words[0]).is_plain_leaf() {
+            return interval;
+        }
+        visit_two_planes(statistics, NodeKind::Carving);
+        on_axis
     }
 }

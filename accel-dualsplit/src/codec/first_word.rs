@@ -3,7 +3,8 @@
 use accel_core::geometry::Axis;
 
 use super::{
-    BoundedAxes, BoxPlane, KIND_MASK, LEAF, OFFSET_BITS, OFFSET_MASK, SEVERAL_AXES, SPLITTING,
+    AXES_MASK, BOUNDING_AXES, BoundedAxes, BoxPlane, KIND_MASK, LEAF, OFFSET_BITS, OFFSET_MASK,
+    SEVERAL_AXES, SINGLE, SPLITTING,
 };
 
 /// The first word of a node: each answer takes an instruction or two, and is right
@@ -25,10 +26,24 @@ impl FirstWord {
         self.0 & KIND_MASK << OFFSET_BITS == 0
     }
 
-    /// Whether this splits; asked of nodes that do not carve on several axes.
+    /// Whether this splits; asked of any node.
     #[inline(always)]
-    pub(crate) fn is_splitting(self) -> bool {
-        self.0 & SPLITTING << OFFSET_BITS != 0
+    pub(crate) fn splits(self) -> bool {
+        self.0 & (SEVERAL_AXES | SPLITTING) << OFFSET_BITS == SPLITTING << OFFSET_BITS
+    }
+
+    /// Whether this carves; asked of any node.
+    #[inline(always)]
+    pub(crate) fn carves(self) -> bool {
+        self.is_on_several_axes() || self.0 & KIND_MASK << OFFSET_BITS == SINGLE << OFFSET_BITS
+    }
+
+    /// [`BoxPlane::index`] of the planes that a node carves, in their order; 6 for
+    /// no plane, twice for a node that carves none. Asked of nodes that are not
+    /// bounding nodes.
+    #[inline(always)]
+    pub(crate) fn carved_planes(self) -> [usize; 2] {
+        CARVED_PLANES[(self.0 >> OFFSET_BITS) as usize].map(usize::from)
     }
 
     /// Whether the offset is the number of a leaf; asked of carving nodes.
@@ -65,12 +80,10 @@ impl FirstWord {
 
     /// [`BoxPlane::index`] of both planes of a dual-axis node.
     #[inline(always)]
-    pub(crate) fn dual_plane_indices(self) -> [usize; 2] {
+    pub(crate) const fn dual_plane_indices(self) -> [usize; 2] {
         let code = self.0 >> OFFSET_BITS;
-        // Twice the axis, and the side: x or y first, y or z second.
-        let first = (code >> 2 & 0b10) | (code >> 1 & 1);
-        let second = 2 + (code >> 1 & 0b10) + (code & 1);
-        [first as usize, second as usize]
+        // Each pair of bits is an axis and a side: x or y first, y or z second.
+        [(code >> 2 & 0b11) as usize, 2 + (code & 0b11) as usize]
     }
 
     /// Asked of dual-axis nodes.
@@ -84,8 +97,32 @@ impl FirstWord {
     /// Asked of bounding nodes.
     #[inline(always)]
     pub(crate) fn bounded_axes(self) -> BoundedAxes {
-        BoundedAxes::ALL[(self.0 >> OFFSET_BITS & KIND_MASK) as usize]
+        let code = self.0 >> OFFSET_BITS;
+        BoundedAxes::ALL[(code >> 1 & 0b10 | code & 1) as usize]
     }
+}
+
+/// By header.
+static CARVED_PLANES: [[u8; 2]; 64] = carved_planes();
+
+const fn carved_planes() -> [[u8; 2]; 64] {
+    let mut table = [[6; 2]; 64];
+    let mut code = 0;
+    while code < 64 {
+        let middle = code >> 2 & 0b11;
+        let word = FirstWord(code << OFFSET_BITS);
+        if code & SEVERAL_AXES != 0 {
+            if code & AXES_MASK != BOUNDING_AXES {
+                let [first, second] = word.dual_plane_indices();
+                table[code as usize] = [first as u8, second as u8];
+            }
+        } else if code & KIND_MASK == SINGLE && middle < 3 {
+            let low = 2 * middle as u8;
+            table[code as usize] = [low + 1, low];
+        }
+        code += 1;
+    }
+    table
 }
 
 #[cfg(test)]
@@ -105,7 +142,7 @@ mod tests {
                     first_child_words,
                 } => {
                     assert!(!word.is_on_several_axes() && !word.is_plain_leaf());
-                    assert!(word.is_splitting());
+                    assert!(word.splits());
                     assert_eq!(word.axis_index(), axis.index());
                     assert_eq!(word.first_child_words() as usize, first_child_words);
                     let is_small = first_child_words < 5;
@@ -118,7 +155,7 @@ mod tests {
                     assert_eq!(word.is_on_several_axes(), !is_single);
                     match planes {
                         CarvingPlanes::Single(axis) => {
-                            assert!(!word.is_plain_leaf() && !word.is_splitting());
+                            assert!(!word.is_plain_leaf() && word.carves());
                             assert_eq!(word.axis_index(), axis.index());
                         }
                         CarvingPlanes::Dual(first, second) => {

@@ -4,8 +4,8 @@ use accel_core::Aabb;
 use accel_core::geometry::Axis;
 
 use super::{
-    BOUNDING_PAIR, FirstWord, KIND_MASK, LEAF, LEAF_WORDS, MAX_OFFSET, OFFSET_BITS, SEVERAL_AXES,
-    SINGLE,
+    AXES_MASK, BOUNDING_AXES, FirstWord, KIND_MASK, LEAF, LEAF_WORDS, MAX_OFFSET, OFFSET_BITS,
+    SEVERAL_AXES, SINGLE,
 };
 
 /// One of the six planes of a box: an axis and a side.
@@ -147,13 +147,13 @@ impl Header {
                 leaf | match planes {
                     CarvingPlanes::Single(axis) => (axis.index() as u32) << 2 | SINGLE,
                     CarvingPlanes::Dual(first, second) => {
-                        let axes =
-                            (first.axis.index() as u32) << 1 | u32::from(second.axis == Axis::Z);
-                        let corner = u32::from(first.is_high) << 1 | u32::from(second.is_high);
-                        SEVERAL_AXES | axes << 2 | corner
+                        // x or y first, y or z second: what is left are four each.
+                        let [first, second] = [first.index(), second.index() - 2];
+                        SEVERAL_AXES | (first as u32) << 2 | second as u32
                     }
                     CarvingPlanes::Bounding(bounded) => {
-                        SEVERAL_AXES | BOUNDING_PAIR << 2 | bounded as u32
+                        let bounded = bounded as u32;
+                        SEVERAL_AXES | BOUNDING_AXES | (bounded & 0b10) << 1 | bounded & 1
                     }
                 }
             }
@@ -168,7 +168,7 @@ impl Header {
         let middle = (code >> 2) & 0b11;
         let is_leaf = code & LEAF != 0;
         if code & SEVERAL_AXES != 0 {
-            let planes = if middle == BOUNDING_PAIR {
+            let planes = if code & AXES_MASK == BOUNDING_AXES {
                 CarvingPlanes::Bounding(word.bounded_axes())
             } else {
                 let [first, second] = word.dual_planes();

@@ -17,7 +17,7 @@
 //! | `0 0 aa ss` | splitting, ss = 01 or 11 | high bound of the first child, low bound of the second | 6 |
 //! | `0 l aa 10` | single-axis carving | high bound, low bound | 6 |
 //! | `0 1 00 00` | leaf | none | 1 |
-//! | `1 l pp cc` | dual-axis carving | a bound on the first axis, one on the second | 24 |
+//! | `1 l pc pc` | dual-axis carving | a bound on the first axis, one on the second | 24 |
 //!
 //! These 37 are the nodes of a dual-split tree; 13 of them, those of the first
 //! three rows, are the nodes of a BIH. An H-tree has these 13 and, in codes that a
@@ -26,10 +26,11 @@
 //! | bits | node | planes | codes |
 //! |---|---|---|---|
 //! | `0 1 aa ss` | splitting, the first child has ss + 4 words: 5 or 7 | as above | 6 |
-//! | `1 l 10 xx` | bounding on axes xy (00), xz (01), xyz (10), yz (11) | high and low bound on each | 8 |
+//! | `1 l 1x 0x` | bounding on axes xy (00), xz (01), xyz (10), yz (11) | high and low bound on each | 8 |
 //!
-//! The upper bit of a corner says that the plane on the first axis is a high
-//! bound, the lower bit the same of the second axis.
+//! The first bit of a corner says that the plane on the first axis is a high bound,
+//! the second bit the same of the second axis. Each stands behind the bit that tells
+//! its axis, so that both together are the place of the plane among those of a box.
 //!
 //! The planes of single-axis carving stand in the order of those of splitting:
 //! so a ray leaves through the same one and enters through the same other one in
@@ -38,10 +39,12 @@
 mod first_word;
 mod header;
 mod node;
+mod words;
 
 pub(crate) use first_word::FirstWord;
 pub(crate) use header::{BoundedAxes, BoxPlane, CarvingPlanes, Header};
 pub(crate) use node::Node;
+pub(crate) use words::{MAX_WORDS, NodeWords};
 
 /// Bytes of a splitting node, and of a carving node with two planes.
 pub const NODE_BYTES: usize = NODE_WORDS * 4;
@@ -51,6 +54,10 @@ pub const LEAF_BYTES: usize = LEAF_WORDS * 4;
 
 pub(crate) const NODE_WORDS: usize = 3;
 pub(crate) const LEAF_WORDS: usize = 1;
+
+/// Words behind the last node, so that planes can be read before it is known
+/// whether there are any.
+pub(crate) const PADDING: usize = NODE_WORDS - LEAF_WORDS;
 
 /// Planes of the node with most of them.
 pub(crate) const MOST_PLANES: usize = 6;
@@ -69,8 +76,10 @@ const SINGLE: u32 = 0b10;
 /// In the lowest bit: splitting, asked of nodes that do not carve on several axes.
 const SPLITTING: u32 = 0b01;
 const KIND_MASK: u32 = 0b11;
-/// The pair that no dual-axis node has.
-const BOUNDING_PAIR: u32 = 0b10;
+/// Of a node that carves on several axes: which pair of axes.
+const AXES_MASK: u32 = 0b1010;
+/// The pair that no dual-axis node has, yx.
+const BOUNDING_AXES: u32 = 0b1000;
 
 const _: () = assert!(NODE_BYTES == 12 && LEAF_BYTES == 4);
 const _: () = assert!(SEVERAL_AXES << 1 == 1 << (u32::BITS - OFFSET_BITS));

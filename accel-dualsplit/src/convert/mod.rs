@@ -21,7 +21,7 @@ use std::marker::PhantomData;
 use accel_bvh::Bvh;
 use accel_core::{AccelerationStructure, BuildBudget, BuildError, Primitive};
 
-use crate::codec::CarvingPlanes;
+use crate::codec::{CarvingPlanes, MAX_WORDS, NodeWords};
 use crate::node_set::NodeSet;
 use crate::tree::{DualSplitTree, PlaneTree};
 use packing::Packing;
@@ -177,8 +177,14 @@ impl CarvingRules {
                 Packing::new(self, bvh, &sizes).pack(root, bounds)?
             }
         };
+        if words.len() > MAX_WORDS {
+            return Err(BuildError::OffsetOverflow {
+                needed: words.len(),
+                limit: MAX_WORDS,
+            });
+        }
         Ok(PlaneTree {
-            words,
+            words: NodeWords::new(words),
             stored: AccelerationStructure::stored(bvh).clone(),
             bounds: bvh.bounds(),
             depth: bvh.depth(),

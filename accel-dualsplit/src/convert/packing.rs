@@ -228,7 +228,12 @@ fn move_target(words: &mut [u32], position: usize, distance: usize) -> Result<()
 
 #[cfg(test)]
 mod tests {
+    use accel_bvh::BvhBuilder;
+    use accel_core::{RaySegment, Sphere};
+
     use super::*;
+    use crate::codec::NodeWords;
+    use crate::{CarvingCosts, DualSplitNodes, DualSplitTree, Partitioning, check_words};
 
     #[test]
     fn an_offset_beyond_26_bits_is_a_typed_error_and_the_largest_is_none() {
@@ -254,5 +259,59 @@ mod tests {
         let mut leaf = [Header::Leaf.encode(5)];
         move_target(&mut leaf, 0, MAX_OFFSET).unwrap();
         assert_eq!(leaf[0], Header::Leaf.encode(5));
+    }
+
+    /// The root stands at the start and its children as many words behind it as
+    /// asked for: as if a large subtree stood between.
+    fn tree_with_offset(
+        spheres: &[Sphere],
+        offset: usize,
+    ) -> Result<DualSplitTree<Sphere>, BuildError> {
+        let bvh = BvhBuilder::default().build(spheres)?;
+        let (handle, bounds) = bvh.root().expect("there are spheres");
+        let rules = CarvingRules {
+            partitioning: Partitioning::Identical,
+            costs: CarvingCosts::default().into(),
+        };
+        let sizes = SubtreeSizes::new(&bvh, handle);
+        let packing = Packing::new(&rules, &bvh, &sizes);
+        let root = Reserved {
+            position: 0,
+            node: sizes.root(&bvh, handle),
+            plan: CarvingPlan::uncarved(bounds),
+            depth: 0,
+        };
+        let mut words = Vec::with_capacity(offset + 64);
+        words.resize(offset, 0);
+        packing.pack_below(root, &mut words)?;
+        Ok(DualSplitTree {
+            words: NodeWords::new(words),
+            stored: bvh.stored().clone(),
+            bounds: Some(bounds),
+            depth: bvh.depth(),
+            nodes: std::marker::PhantomData,
+        })
+    }
+
+    #[test]
+    fn a_tree_at_the_26_bit_limit_is_built_right_and_one_beyond_it_is_a_typed_error() {
+        let sphere = |i: u8| Sphere::new([f32::from(i), 0.0, 0.0], 0.4);
+        let spheres: Vec<Sphere> = (0..12).map(sphere).collect();
+        let tree = tree_with_offset(&spheres, MAX_OFFSET).unwrap();
+        assert_eq!(
+            check_words::<DualSplitNodes>(tree.node_words(), |_| true),
+            Ok(tree.depth())
+        );
+        tree.validate().unwrap();
+        for i in 0..12_u8 {
+            let ray = RaySegment::new([f32::from(i), 5.0, 0.0], [0.0, -1.0, 0.0]);
+            assert_eq!(tree.closest_hit(&ray).map(|hit| hit.id), Some(i.into()));
+        }
+        let error = BuildError::OffsetOverflow {
+            needed: MAX_OFFSET + 1,
+            limit: MAX_OFFSET,
+        };
+        let beyond = tree_with_offset(&spheres, MAX_OFFSET + 1);
+        assert_eq!(beyond.map(|_| ()), Err(error));
     }
 }

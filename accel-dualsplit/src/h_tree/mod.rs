@@ -19,14 +19,13 @@
 //! Hierarchies for Ray Tracing*, IEEE Symposium on Interactive Ray Tracing 2006.
 
 use accel_bvh::Bvh;
-use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::{BuildBudget, BuildError, Primitive};
+use accel_core::{BuildBudget, BuildError, PreparedRay, Primitive};
 
 use crate::codec::{CarvingPlanes, FirstWord, Header};
 use crate::convert::{CarvingRules, NodeCosts, Partitioning};
 use crate::node_set::{NodeSet, Nodes};
-use crate::traversal::PlaneTest;
+use crate::traversal::{AxisTests, visit_two_planes};
 use crate::tree::PlaneTree;
 
 /// An H-tree. Made from a BVH by an [`HTreeConverter`].
@@ -108,7 +107,8 @@ impl NodeSet for HTreeNodes {}
 
 impl Nodes for HTreeNodes {
     const ARCHIVE_KIND: [u8; 8] = *b"accelhtr";
-    const CARVES_SEVERAL_AXES: bool = true;
+
+    type CarvingTest = ();
 
     fn admits(header: Header) -> bool {
         match header {
@@ -123,23 +123,33 @@ impl Nodes for HTreeNodes {
     }
 
     #[inline(always)]
-    fn carve_several_axes<S: TraversalStatistics>(
-        test: &PlaneTest,
-        node: FirstWord,
+    fn carving_test(_: &PreparedRay) {}
+
+    #[inline(always)]
+    fn carve<S: TraversalStatistics>(
+        (): &(),
+        axes: &AxisTests,
         words: &[u32],
-        (mut near, mut far): (f32, f32),
+        mut interval: (f32, f32),
+        on_axis: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32) {
-        let axes = node.bounded_axes().axes();
-        let planes = 2 * axes.len() as u32;
-        statistics.visit_node(NodeKind::Carving, 4 * (1 + planes));
-        statistics.test_planes(planes);
-        for (axis, pair) in axes.iter().zip(words[1..].chunks_exact(2)) {
-            let pair = [pair[0], pair[1]].map(f32::from_bits);
-            let [exit, entry] = test.axes[axis.index()].exit_and_entry(pair);
-            near = max_or_keep(near, entry);
-            far = min_or_keep(far, exit);
+        let node = FirstWord(words[0]);
+        if node.is_on_several_axes() {
+            let bounded = node.bounded_axes().axes();
+            let planes = 2 * bounded.len() as u32;
+            statistics.visit_node(NodeKind::Carving, 4 * (1 + planes));
+            statistics.test_planes(planes);
+            let (pairs, _) = words[1..].as_chunks();
+            for (&axis, pair) in bounded.iter().zip(pairs) {
+                interval = axes.on(axis).cut(pair, interval);
+            }
+            return interval;
         }
-        (near, far)
+        if node.is_plain_leaf() {
+            return interval;
+        }
+        visit_two_planes(statistics, NodeKind::Carving);
+        on_axis
     }
 }

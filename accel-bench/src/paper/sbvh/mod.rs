@@ -9,6 +9,7 @@ mod table;
 
 use accel_core::{Aabb, DynStructure, InvalidPrimitives, Primitive};
 
+use super::Found;
 use crate::registry;
 use crate::report::document::Section;
 use crate::scene::Scene;
@@ -47,17 +48,6 @@ pub struct Settings {
     pub seed: u64,
     /// What to do with triangles without finite corners.
     pub invalid: InvalidPrimitives,
-}
-
-/// What was found about a scene.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// Ready for a document.
-    pub section: Section,
-    /// Rays compared with brute force.
-    pub verified: usize,
-    /// Rays answered differently.
-    pub disagreements: usize,
 }
 
 /// Measures one scene: the four methods of Table 1, the sweep over alpha of

@@ -1,0 +1,137 @@
+//! The one traversal, for every query and with or without statistics (Lin 2019,
+//! section 3.4 and Algorithm 1).
+//!
+//! ```text
+//! node := root, [near, far] := the ray's part in its box
+//! loop:
+//!     splitting:   the child that the ray comes to first ends at the plane that
+//!                  the ray leaves through; the other begins where it enters
+//!                  through the other plane. Both not empty: put the farther off,
+//!                  go to the closer; one not empty: go there
+//!     carving:     cut [near, far] at its planes; if it is not empty, go to the
+//!                  child, or offer the hits of the leaf
+//!     plain leaf:  offer its hits
+//!     otherwise:   take the child put off last that is not behind the best hit
+//! ```
+//!
+//! Which child comes first follows from the sign of the direction, as in a
+//! kd-tree. No hit ends the traversal: children may overlap.
+//!
+//! Every plane is met in the reference form of [`PreparedRay::slab`], and
+//! maximum and minimum are exact: after the planes of a whole box, inherited or
+//! carved, `near` and `far` are bit for bit those of that box's slab test.
+
+mod axis_test;
+mod side_test;
+
+use accel_core::layout::LeafStorage;
+use accel_core::query::Query;
+use accel_core::ray::{max_or_keep, min_or_keep};
+use accel_core::statistics::{NodeKind, TraversalStatistics};
+use accel_core::structure::TraversalStack;
+use accel_core::{PreparedRay, Primitive};
+
+use crate::codec::{FirstWord, LEAF_BYTES, NODE_BYTES, NODE_WORDS};
+use crate::node_set::NodeSet;
+use crate::tree::PlaneTree;
+
+pub use axis_test::AxisTests;
+pub use side_test::SideTests;
+
+/// A node put off, and where the ray leaves it.
+#[derive(Clone, Copy)]
+struct PutOff {
+    position: u32,
+    far: f32,
+}
+
+pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistics>(
+    tree: &PlaneTree<P, N>,
+    ray: &PreparedRay,
+    query: &mut Q,
+    statistics: &mut S,
+) {
+    let Some(bounds) = tree.bounds else { return };
+    statistics.test_boxes(1);
+    let whole = ray.slab(&bounds);
+    let mut near = max_or_keep(ray.t_min(), whole.near);
+    let mut far = min_or_keep(query.t_max(), whole.far);
+    // Neither is NaN: both began as numbers and kept them.
+    if near > far {
+        return;
+    }
+    let words = tree.words.padded();
+    let axes = AxisTests::new(ray);
+    let carving = N::carving_test(ray);
+    let mut stack: TraversalStack<PutOff> = TraversalStack::new();
+    let mut position = 0_u32;
+    loop {
+        let rest = &words[position as usize..];
+        let own: &[u32; NODE_WORDS] = rest.first_chunk().expect("padding follows the last node");
+        let node = FirstWord(own[0]);
+        // The same for a splitting node and one that carves on one axis: computed
+        // before it is known which of them this is.
+        let axis = axes.of(node);
+        let (farther_near, nearer_far) = axis.cut(planes_of(own), (near, far));
+        if node.splits() {
+            visit_two_planes(statistics, NodeKind::Splitting);
+            let first = position + node.offset();
+            let [closer, farther] = axis.in_order(first, N::first_child_words(node));
+            let meets_farther = farther_near <= far;
+            if near <= nearer_far {
+                if meets_farther {
+                    let put_off = PutOff {
+                        position: farther,
+                        far,
+                    };
+                    stack.push(put_off, farther_near);
+                }
+                (position, far) = (closer, nearer_far);
+                continue;
+            }
+            if meets_farther {
+                (position, near) = (farther, farther_near);
+                continue;
+            }
+        } else {
+            if !node.carves() {
+                statistics.visit_node(NodeKind::Leaf, LEAF_BYTES as u32);
+            }
+            let on_axis = (farther_near, nearer_far);
+            (near, far) = N::carve(&carving, &axes, rest, (near, far), on_axis, statistics);
+            if near <= far {
+                if !node.is_leaf() {
+                    position += node.offset();
+                    continue;
+                }
+                let leaves = tree.stored.leaves();
+                if leaves
+                    .intersect_leaf(node.offset(), ray, query, statistics)
+                    .is_break()
+                {
+                    return;
+                }
+            }
+        }
+        let Some(entry) = stack.pop_entry_within(query.t_max()) else {
+            return;
+        };
+        position = entry.node.position;
+        near = entry.near;
+        far = min_or_keep(query.t_max(), entry.node.far);
+    }
+}
+
+/// Tells of a visit to a node with two planes.
+#[inline(always)]
+pub(crate) fn visit_two_planes<S: TraversalStatistics>(statistics: &mut S, kind: NodeKind) {
+    statistics.visit_node(kind, NODE_BYTES as u32);
+    statistics.test_planes(2);
+}
+
+/// The planes of a node that has two, from its words. Of a leaf they are other words
+/// of the tree, or padding.
+#[inline(always)]
+pub(crate) fn planes_of(own: &[u32; NODE_WORDS]) -> &[u32; 2] {
+    own.last_chunk().expect("two of three words")
+}
