@@ -20,10 +20,8 @@ pub struct BspBuilder {
     /// Whether nodes split orthogonally to an axis are traversed by the fast path
     /// of a kd-tree. Without it every node costs as much as a general one.
     pub axis_aligned_nodes: bool,
-    /// BSP-tri (section 4.3): a leaf of one primitive keeps the primitive's plane,
-    /// and the primitive is tested only where the ray crosses that plane inside
-    /// the leaf.
-    pub planar_leaves: bool,
+    /// What leaves of one primitive know of its plane: BSP-tri (section 4.3).
+    pub single_leaves: SingleLeaves,
     /// How far primitives may reach over a plane and still be on one side of it,
     /// relative to the extent of what the node holds: 2^-24 to 2^-14. Larger
     /// values need fewer planes for surfaces that are almost flat, but traversal
@@ -42,12 +40,42 @@ pub struct BspBuilder {
     pub budget: BuildBudget,
 }
 
+/// What a leaf of one primitive knows of its plane. Queries are answered the same
+/// with each of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SingleLeaves {
+    /// Nothing: the primitive is tested wherever the leaf is visited.
+    #[default]
+    Plain,
+    /// The plane: the primitive is tested only where the ray crosses the plane
+    /// inside the leaf.
+    Planar,
+    /// The depth of the node that splits by the plane, where the primitive covers
+    /// the face that the plane cuts into the cell. Only
+    /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) makes use of
+    /// it.
+    Bounded,
+}
+
+impl SingleLeaves {
+    /// How far both parts of a cell must reach from a plane, in units of its signed
+    /// distance. A part within the slack is visited by every ray that comes as near
+    /// to the plane; it pays nevertheless, as a test of a primitive's plane, unless
+    /// leaves have that test anyway.
+    pub(crate) fn least_thickness(self, plane: &SplitPlane) -> f64 {
+        match self {
+            Self::Plain => 0.0,
+            Self::Planar | Self::Bounded => plane.slack(),
+        }
+    }
+}
+
 impl Default for BspBuilder {
     fn default() -> Self {
         Self {
             costs: BspCosts::default(),
             axis_aligned_nodes: true,
-            planar_leaves: false,
+            single_leaves: SingleLeaves::default(),
             epsilon: 1.0 / (1 << 20) as f64,
             sampled_primitives: Some(64),
             max_duplication: 16.0,
@@ -72,10 +100,20 @@ impl BspBuilder {
         }
     }
 
-    /// BSP-tri: leaves that hold one primitive keep its plane (section 4.3).
+    /// BSP-tri, every hit confirmed by the kernel (section 4.3).
     pub fn with_planar_leaves() -> Self {
         Self {
-            planar_leaves: true,
+            single_leaves: SingleLeaves::Planar,
+            ..Self::default()
+        }
+    }
+
+    /// BSP-tri as in the paper, whose hits
+    /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) takes from the
+    /// traversal (section 4.3).
+    pub fn with_bounded_leaves() -> Self {
+        Self {
+            single_leaves: SingleLeaves::Bounded,
             ..Self::default()
         }
     }

@@ -33,7 +33,8 @@
 //! [`BspBuilder`] takes settings; `search` finds the best plane, with the counts
 //! of `sphere_hierarchy` and the areas of `polytope`, by the costs of `cost`;
 //! `pieces` divides what the node holds; `layout` packs the tree into the nodes of
-//! `node`; `traversal` walks them; `persistence` saves and loads.
+//! `node`; `traversal` walks them; `traversal_based` and `unconfirmed` are the
+//! paper's triangle test without a triangle test; `persistence` saves and loads.
 //!
 //! # Complexity
 //! A node of n primitives weighs O(n) axis-aligned planes in O(n log n) time, and
@@ -42,7 +43,10 @@
 
 mod bsp_tree;
 mod builder;
+mod candidates;
+mod cells;
 mod cost;
+mod ends;
 mod layout;
 mod node;
 mod persistence;
@@ -52,11 +56,14 @@ mod search;
 mod sphere_hierarchy;
 mod split_plane;
 mod traversal;
+mod traversal_based;
+mod unconfirmed;
 
 pub use bsp_tree::{BspShape, BspTree};
-pub use builder::BspBuilder;
+pub use builder::{BspBuilder, SingleLeaves};
 pub use cost::BspCosts;
 pub use node::NODE_BYTES;
+pub use unconfirmed::UnconfirmedHit;
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

@@ -22,12 +22,16 @@ pub(crate) struct Polytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
     area: f64,
+    /// How many planes have cut it: the depth of its node.
+    cuts: u32,
 }
 
 #[derive(Clone, Debug)]
 struct Face {
     corners: Vec<u32>,
     area: f64,
+    /// Which of the cuts made it, if the box did not.
+    made_by: Option<u32>,
 }
 
 /// Why a polytope was not cut: rounding left a part that is not closed, or the
@@ -59,15 +63,16 @@ impl Polytope {
             [0, 2, 3, 1],
             [4, 5, 7, 6],
         ];
-        Self::new(corners, loops.map(Vec::from).into())
+        Self::new(corners, loops.map(|face| (Vec::from(face), None)).into(), 0)
     }
 
-    fn new(corners: Vec<DVec3>, loops: Vec<Vec<u32>>) -> Self {
+    fn new(corners: Vec<DVec3>, loops: Vec<(Vec<u32>, Option<u32>)>, cuts: u32) -> Self {
         let faces: Vec<Face> = loops
             .into_iter()
-            .map(|loop_corners| Face {
+            .map(|(loop_corners, made_by)| Face {
                 area: loop_area(loop_corners.iter().map(|&index| corners[index as usize])),
                 corners: loop_corners,
+                made_by,
             })
             .collect();
         let area = faces.iter().map(|face| face.area).sum();
@@ -75,7 +80,20 @@ impl Polytope {
             corners,
             faces,
             area,
+            cuts,
         }
+    }
+
+    /// The faces that cuts have made, by the number of the cut from 0, with their
+    /// corners.
+    pub(crate) fn cut_faces(&self) -> impl Iterator<Item = (u32, impl Iterator<Item = DVec3>)> {
+        self.faces.iter().filter_map(|face| {
+            let corners = face
+                .corners
+                .iter()
+                .map(|&index| self.corners[index as usize]);
+            Some((face.made_by?, corners))
+        })
     }
 
     /// The surface area; of a flat cell both sides count.
@@ -90,16 +108,18 @@ impl Polytope {
     }
 
     /// The surface areas of the parts behind and in front of `plane`, without
-    /// making them; `None` if either is empty.
+    /// making them; `None` if either is empty, or reaches no further than
+    /// `thickness` from the plane, in units of its signed distance.
     ///
     /// The cap needs no linking here: the area of a closed polygon is half the
     /// sum of the cross products of its edges, in any order.
     pub(crate) fn split_areas(
         &self,
         plane: &SplitPlane,
+        thickness: f64,
         distances: &mut Vec<f64>,
     ) -> Option<[f64; 2]> {
-        self.classify(plane, distances).ok()?;
+        self.classify(plane, thickness, distances).ok()?;
         let (mut behind, mut in_front, mut cap) = (0.0, 0.0, DVec3::ZERO);
         let center = self.corners[0];
         for face in &self.faces {
@@ -146,7 +166,7 @@ impl Polytope {
     /// The parts behind and in front of `plane`.
     pub(crate) fn cut(&self, plane: &SplitPlane) -> Result<[Self; 2], CutError> {
         let mut distances = Vec::with_capacity(self.corners.len());
-        self.classify(plane, &mut distances)?;
+        self.classify(plane, 0.0, &mut distances)?;
         let mut cut = Cut {
             polytope: self,
             distances: &distances,
@@ -159,7 +179,12 @@ impl Polytope {
     }
 
     /// The signed distance of each corner, exactly zero for those on the plane.
-    fn classify(&self, plane: &SplitPlane, distances: &mut Vec<f64>) -> Result<(), CutError> {
+    fn classify(
+        &self,
+        plane: &SplitPlane,
+        thickness: f64,
+        distances: &mut Vec<f64>,
+    ) -> Result<(), CutError> {
         distances.clear();
         let absolute = plane.normal().abs();
         distances.extend(self.corners.iter().map(|&corner| {
@@ -167,8 +192,8 @@ impl Polytope {
             let noise = ON_PLANE * (absolute.dot(corner.abs()) + plane.offset().abs());
             if s.abs() <= noise { 0.0 } else { s }
         }));
-        let has = |is_there: fn(&f64) -> bool| distances.iter().any(is_there);
-        if has(|&s| s < 0.0) && has(|&s| s > 0.0) {
+        let is_behind = distances.iter().any(|&s| s < -thickness);
+        if is_behind && distances.iter().any(|&s| s > thickness) {
             Ok(())
         } else {
             Err(CutError::Misses)
@@ -212,9 +237,9 @@ impl Cut<'_> {
                     cap_edges.push([to, from]);
                 }
             }
-            loops.push(kept);
+            loops.push((kept, face.made_by));
         }
-        loops.push(link(&cap_edges)?);
+        loops.push((link(&cap_edges)?, Some(self.polytope.cuts)));
         let part = self.renumbered(loops);
         part.check_euler()?;
         Ok(part)
@@ -253,10 +278,10 @@ impl Cut<'_> {
     }
 
     /// The polytope of these faces, without corners that none of them uses.
-    fn renumbered(&self, mut loops: Vec<Vec<u32>>) -> Polytope {
+    fn renumbered(&self, mut loops: Vec<(Vec<u32>, Option<u32>)>) -> Polytope {
         let mut numbers = vec![u32::MAX; self.corners.len()];
         let mut corners = Vec::new();
-        for index in loops.iter_mut().flatten() {
+        for index in loops.iter_mut().flat_map(|(corners, _)| corners) {
             let number = &mut numbers[*index as usize];
             if *number == u32::MAX {
                 *number = corners.len() as u32;
@@ -264,7 +289,7 @@ impl Cut<'_> {
             }
             *index = *number;
         }
-        Polytope::new(corners, loops)
+        Polytope::new(corners, loops, self.polytope.cuts + 1)
     }
 }
 
@@ -389,7 +414,7 @@ mod tests {
             let [low, high] = cell.bounds();
             let at = low + (high - low) * f64::from(next());
             let plane = through(at.as_vec3().to_array(), normal);
-            let Some(areas) = cell.split_areas(&plane, &mut distances) else {
+            let Some(areas) = cell.split_areas(&plane, 0.0, &mut distances) else {
                 continue;
             };
             let parts = cell.cut(&plane).unwrap();

@@ -11,13 +11,12 @@ use accel_core::Polygonal;
 use accel_core::geometry::Axis;
 
 use crate::builder::BspBuilder;
-use crate::pieces::{Counts, Pieces, pad_of};
+use crate::candidates::{RELATIVE_PLACEMENT, planes_of};
+use crate::ends::Ends;
+use crate::pieces::{Counts, Pieces};
 use crate::polytope::Polytope;
 use crate::sphere_hierarchy::SphereHierarchy;
 use crate::split_plane::SplitPlane;
-
-/// Single precision places a point of coordinate 1 within this.
-const RELATIVE_PLACEMENT: f64 = 1.0 / (1 << 22) as f64;
 
 /// A split, and what it costs.
 #[derive(Clone, Copy, Debug)]
@@ -145,7 +144,9 @@ impl<'a, P: Polygonal> Search<'a, P> {
         if !self.may_improve(linear + least, fixed + least, is_axis_aligned) {
             return;
         }
-        let Some(areas) = self.cell.split_areas(plane, &mut self.distances) else {
+        let thickness = self.builder.single_leaves.least_thickness(plane);
+        let areas = self.cell.split_areas(plane, thickness, &mut self.distances);
+        let Some(areas) = areas else {
             return;
         };
         for planar_in_front in [false, true] {
@@ -183,92 +184,5 @@ impl<'a, P: Polygonal> Search<'a, P> {
 fn keep_cheaper(best: &mut Option<Split>, split: Split) {
     if best.is_none_or(|best| split.cost < best.cost) {
         *best = Some(split);
-    }
-}
-
-/// The planes that a primitive offers, with at least the slack that its own
-/// place on them needs, and at least `local`.
-pub(crate) fn planes_of<P: Polygonal>(
-    primitive: &P,
-    local: f64,
-) -> impl Iterator<Item = SplitPlane> {
-    let bounds = primitive.bounds();
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    let own = 4.0 * pad_of(primitive) + RELATIVE_PLACEMENT * f64::from(largest);
-    primitive.candidate_planes().filter_map(move |plane| {
-        let distance = |point: &_| plane.signed_distance(*point).abs();
-        let point = primitive
-            .vertices()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        SplitPlane::general(&plane, point, own.max(local))
-    })
-}
-
-/// Where the pieces begin and end along an axis, sorted: the counts on both
-/// sides of a position follow by looking it up.
-struct Ends {
-    /// The largest positions that have the piece in front.
-    starts: Vec<f64>,
-    /// The smallest positions that have the piece behind.
-    ends: Vec<f64>,
-    /// Middles of pieces thinner than the slack.
-    flats: Vec<f64>,
-    /// Where the pieces begin and end themselves.
-    positions: Vec<f32>,
-}
-
-impl Ends {
-    fn new(pieces: &Pieces, axis: Axis, slack: f64) -> Self {
-        let count = pieces.len();
-        let mut ends = Self {
-            starts: Vec::with_capacity(count),
-            ends: Vec::with_capacity(count),
-            flats: Vec::new(),
-            positions: Vec::with_capacity(2 * count),
-        };
-        for piece in 0..count {
-            let along = |corner: &accel_core::glam::DVec3| corner[axis.index()];
-            let corners = pieces.corners(piece).iter().map(along);
-            let unbounded = (f64::INFINITY, f64::NEG_INFINITY);
-            let (low, high) = corners.fold(unbounded, |(low, high), x| (low.min(x), high.max(x)));
-            let reach = slack - pieces.pad(piece);
-            let (start, end) = (low + reach, high - reach);
-            if start < end {
-                ends.starts.push(start);
-                ends.ends.push(end);
-                ends.positions.extend([low as f32, high as f32]);
-            } else {
-                let middle = (0.5 * (low + high)) as f32;
-                ends.starts.push(f64::from(middle));
-                ends.ends.push(f64::from(middle));
-                ends.flats.push(f64::from(middle));
-                ends.positions.push(middle);
-            }
-        }
-        for list in [&mut ends.starts, &mut ends.ends, &mut ends.flats] {
-            list.sort_unstable_by(f64::total_cmp);
-        }
-        ends.positions.sort_unstable_by(f32::total_cmp);
-        ends.positions.dedup();
-        ends
-    }
-
-    fn positions(&self) -> impl Iterator<Item = f32> {
-        self.positions.iter().copied()
-    }
-
-    fn count(&self, position: f64) -> Counts {
-        let total = self.starts.len();
-        let not_in_front = self.starts.partition_point(|&start| start < position);
-        let not_behind = total - self.ends.partition_point(|&end| end <= position);
-        let planar = self.flats.partition_point(|&flat| flat <= position)
-            - self.flats.partition_point(|&flat| flat < position);
-        let straddling = not_in_front + not_behind + planar - total;
-        Counts {
-            behind: not_in_front - straddling,
-            in_front: not_behind - straddling,
-            planar,
-            straddling,
-        }
     }
 }

@@ -11,10 +11,12 @@
 //! Evaluated in double precision: tau then covers what the kernel rounds, and
 //! the traversal's own rounding vanishes beside it.
 
+use std::ops::ControlFlow;
+
 use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
 use accel_core::glam::{DVec3, Vec3};
 use accel_core::layout::LeafStorage;
-use accel_core::query::Query;
+use accel_core::query::{Hit, Query};
 use accel_core::ray::max_or_keep;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics};
 use accel_core::structure::TraversalStack;
@@ -41,15 +43,69 @@ impl Tolerance {
     };
 }
 
+/// What a part of the ray knows of the planes that it lies between.
+pub(crate) trait PlaneTracking: Copy {
+    /// Of the whole ray inside the scene's box.
+    fn of_ray(near: f64, far: f64) -> Self;
+
+    /// In a child, if the ray passes the plane on one side.
+    fn on_one_side(self) -> Self;
+
+    /// In the nearer child and the farther one, if the plane is at this `t`.
+    fn divided(self, at: f64) -> [Self; 2];
+
+    /// What a leaf answers whose primitive covers the face that the node at
+    /// `depth` has cut.
+    fn leaf_answer(&self, depth: u32) -> LeafAnswer;
+}
+
+/// What is known of the primitive of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum LeafAnswer {
+    /// Nothing: its kernel must decide.
+    AskKernel,
+    /// It is hit there.
+    Hit(f64),
+    /// It is missed.
+    Miss,
+}
+
+/// Knows nothing, for the queries that kernels answer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Untracked;
+
+impl PlaneTracking for Untracked {
+    #[inline]
+    fn of_ray(_: f64, _: f64) -> Self {
+        Self
+    }
+
+    #[inline]
+    fn on_one_side(self) -> Self {
+        self
+    }
+
+    #[inline]
+    fn divided(self, _: f64) -> [Self; 2] {
+        [self; 2]
+    }
+
+    #[inline]
+    fn leaf_answer(&self, _: u32) -> LeafAnswer {
+        LeafAnswer::AskKernel
+    }
+}
+
 /// A node put off, with the part of the ray inside.
 #[derive(Clone, Copy, Debug)]
-struct Segment {
+struct Segment<T> {
     node: u32,
     near: f64,
     far: f64,
+    planes: T,
 }
 
-pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
+pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
     ray: &PreparedRay,
     query: &mut Q,
@@ -63,15 +119,17 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     if !(near <= whole.far && near <= query.t_max()) {
         return;
     }
+    let (near, far) = (f64::from(near), f64::from(whole.far.min(f32::MAX)));
     let ray_in_double = DoubleRay::new(ray, tolerance);
     let mut stack = TraversalStack::new();
     let mut segment = Segment {
         node: 0,
-        near: f64::from(near),
-        far: f64::from(whole.far.min(f32::MAX)),
+        near,
+        far,
+        planes: T::of_ray(near, far),
     };
     loop {
-        let (crossing, children) = match tree.nodes[segment.node as usize].kind() {
+        let (crossing, children, kind) = match tree.nodes[segment.node as usize].kind() {
             NodeKind::AxisAligned {
                 axis,
                 position,
@@ -79,13 +137,16 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 children,
             } => {
                 let crossing = ray_in_double.axis_aligned(axis, position, slack, segment.far);
-                (crossing, children)
+                (crossing, children, StatisticsKind::Inner)
             }
             NodeKind::General {
                 normal,
                 offset,
                 children,
-            } => (ray_in_double.general(normal, offset, segment.far), children),
+            } => {
+                let crossing = ray_in_double.general(normal, offset, segment.far);
+                (crossing, children, StatisticsKind::General)
+            }
             leaf => {
                 statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
                 let leaf = match leaf {
@@ -98,6 +159,20 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                         statistics.test_planes(1);
                         let crossing = ray_in_double.general(normal, offset, segment.far);
                         crossing.meets(&segment).then_some(leaf)
+                    }
+                    NodeKind::BoundedLeaf { depth, leaf } => {
+                        match segment.planes.leaf_answer(depth) {
+                            LeafAnswer::AskKernel => Some(leaf),
+                            answer => {
+                                statistics.test_planes(1);
+                                if let LeafAnswer::Hit(t) = answer
+                                    && offer_unconfirmed(tree, leaf, t, ray, query).is_break()
+                                {
+                                    return;
+                                }
+                                None
+                            }
+                        }
                     }
                     _ => None,
                 };
@@ -116,7 +191,7 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 continue;
             }
         };
-        statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
+        statistics.visit_node(kind, NODE_BYTES as u32);
         statistics.test_planes(1);
         let (nearer, farther) = crossing.divide(&segment, children);
         if let Some(farther) = farther {
@@ -125,6 +200,27 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
             stack.push(farther, farther.near as f32);
         }
         segment = nearer;
+    }
+}
+
+/// Offers a hit of a leaf's one primitive that the traversal has found.
+fn offer_unconfirmed<P: Primitive, Q: Query>(
+    tree: &BspTree<P>,
+    leaf: u32,
+    t: f64,
+    ray: &PreparedRay,
+    query: &mut Q,
+) -> ControlFlow<()> {
+    let t = t as f32;
+    let id = tree.stored.leaves().leaf_ids(leaf).next();
+    match id {
+        Some(id) if (ray.t_min()..=query.t_max()).contains(&t) => query.offer(&Hit {
+            t,
+            u: 0.0,
+            v: 0.0,
+            id,
+        }),
+        _ => ControlFlow::Continue(()),
     }
 }
 
@@ -197,22 +293,31 @@ impl DoubleRay {
 impl Crossing {
     /// Signed distances of both ends.
     #[inline]
-    fn ends(&self, segment: &Segment) -> [f64; 2] {
+    fn ends<T>(&self, segment: &Segment<T>) -> [f64; 2] {
         [segment.near, segment.far].map(|t| self.start + t * self.slope)
     }
 
     /// Whether the ray comes within tau of the plane.
     #[inline]
-    fn meets(&self, segment: &Segment) -> bool {
+    fn meets<T>(&self, segment: &Segment<T>) -> bool {
         let [s0, s1] = self.ends(segment);
         !(s0 > self.tau && s1 > self.tau || s0 < -self.tau && s1 < -self.tau)
     }
 
     /// The child that the ray enters first, and the other one if it enters both.
     #[inline]
-    fn divide(&self, segment: &Segment, back: u32) -> (Segment, Option<Segment>) {
+    fn divide<T: PlaneTracking>(
+        &self,
+        segment: &Segment<T>,
+        back: u32,
+    ) -> (Segment<T>, Option<Segment<T>>) {
         let [s0, s1] = self.ends(segment);
-        let of = |node| Segment { node, ..*segment };
+        let planes = segment.planes.on_one_side();
+        let of = |node| Segment {
+            node,
+            planes,
+            ..*segment
+        };
         if s0 > self.tau && s1 > self.tau {
             return (of(back + 1), None);
         }
@@ -224,6 +329,7 @@ impl Crossing {
         } else {
             [of(back), of(back + 1)]
         };
+        [nearer.planes, farther.planes] = segment.planes.divided(self.at);
         // Where the whole segment is within tau, no division by a tiny slope.
         if (s1 - s0).abs() > self.tau {
             nearer.far = nearer.far.min(self.at + self.reach);
@@ -254,7 +360,7 @@ mod tests {
         let closest = |ray: &RaySegment| {
             let ray = PreparedRay::new(ray)?;
             let mut query = ClosestHit::new(&ray);
-            traverse(&tree, &ray, &mut query, &mut (), tolerance);
+            traverse::<_, Untracked, _, _>(&tree, &ray, &mut query, &mut (), tolerance);
             query.best()
         };
         let differs = |ray: &&RaySegment| closest(ray) != oracle.closest_hit(*ray);

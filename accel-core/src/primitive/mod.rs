@@ -98,6 +98,17 @@ pub trait Polygonal: Primitive {
     /// polygon its corners in order.
     fn vertices(&self) -> impl Iterator<Item = Vec3>;
 
+    /// Whether the primitive is the convex polygon of its vertices, as far as
+    /// single precision tells. Only then may a part of it be cut out by cutting
+    /// the polygon, and a point of its plane between its edges be taken for a
+    /// point of it.
+    ///
+    /// The default, no, is right for every type; a polygon that says yes makes
+    /// better trees.
+    fn is_convex_polygon(&self) -> bool {
+        false
+    }
+
     /// Planes worth splitting a cell by that follow from this primitive alone,
     /// besides those tangent to its box. For a triangle: its face plane and the
     /// three planes through its edges orthogonal to it (Ize, Wald and Parker

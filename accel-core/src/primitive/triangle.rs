@@ -113,6 +113,10 @@ impl Polygonal for Triangle {
         Self::vertices(self).into_iter()
     }
 
+    fn is_convex_polygon(&self) -> bool {
+        true
+    }
+
     fn candidate_planes(&self) -> impl Iterator<Item = Plane> {
         let normal = self.normal();
         let edges = [(self.a, self.b), (self.b, self.c), (self.c, self.a)];
