@@ -46,39 +46,46 @@ fn camera_rays(tree: &BspTree<Triangle>, side: usize) -> Vec<RaySegment> {
         .collect()
 }
 
-fn differs(hit: Option<UnconfirmedHit>, expected: Option<Hit>) -> bool {
+/// Whether both name the same primitive at the same place.
+fn is_same(hit: Option<UnconfirmedHit>, expected: Option<Hit>) -> bool {
     match (hit, expected) {
         (Some(hit), Some(expected)) => {
-            hit.id != expected.id || (hit.t - expected.t).abs() > 1e-3 * expected.t
+            hit.id == expected.id && (hit.t - expected.t).abs() <= 1e-5 * expected.t
         }
-        (hit, expected) => hit.is_some() != expected.is_some(),
+        (hit, expected) => hit.is_none() && expected.is_none(),
     }
 }
 
 #[test]
-fn most_tests_are_saved_and_few_answers_differ() {
-    for family in [
-        "closed-icosphere",
-        "skinny-cylinder-rotated",
-        "closed-torus",
-    ] {
+fn most_tests_are_saved_and_no_answer_of_a_camera_differs() {
+    // Of the tests that the kernel makes, how many percent may be left.
+    for (family, left) in [("closed-icosphere", 20), ("closed-torus", 25)] {
         let triangles = scene(family, 1000);
         let tree = BspBuilder::with_bounded_leaves().build(&triangles).unwrap();
         let [mut confirmed, mut unconfirmed] = [TraversalCounters::default(); 2];
-        let (mut differing, mut hits) = (0, 0);
+        let mut hits = 0;
         for ray in camera_rays(&tree, 100) {
             let expected = tree.closest_hit_with(&ray, &mut confirmed);
             let hit = tree.closest_hit_unconfirmed_with(&ray, &mut unconfirmed);
-            differing += usize::from(differs(hit, expected));
+            assert!(is_same(hit, expected), "{family}: {hit:?} {expected:?}");
             hits += usize::from(expected.is_some());
-            if differs(hit, expected) && differing < 12 {
-                println!("DBG {hit:?} {expected:?}");
-            }
         }
         let tests = [confirmed, unconfirmed].map(|counters| counters.primitive_tests.sum);
-        println!(
-            "{family}: {hits} hits, {differing} differ, {tests:?} tests, {:?}",
-            tree.shape()
+        assert!(
+            hits > 5000 && 100 * tests[1] < left * tests[0],
+            "{family}: {hits} {tests:?}"
         );
+    }
+}
+
+#[test]
+fn without_marked_leaves_every_hit_is_the_kernels() {
+    let triangles = scene("hairball", 1000);
+    let tree = BspBuilder::default().build(&triangles).unwrap();
+    for ray in camera_rays(&tree, 60) {
+        let hit = tree.closest_hit_unconfirmed(&ray);
+        let expected = tree.closest_hit(&ray);
+        let pair = |hit: Hit| (hit.t, hit.id);
+        assert_eq!(hit.map(|hit| (hit.t, hit.id)), expected.map(pair));
     }
 }
