@@ -32,7 +32,9 @@ pub struct BspBuilder {
     /// exhaustive search. At least 1.
     pub sampled_primitives: Option<usize>,
     /// How many references all splits together may add, for each primitive;
-    /// shared out from the root down. Finite and at least 0.
+    /// shared out from the root down. A limit, rarely met: a scan needs about 3,
+    /// but corners where many primitives meet need a large share.
+    /// Finite and at least 0.
     pub max_duplication: f64,
     /// Whether primitives without finite bounds are refused or left out.
     pub invalid_primitives: InvalidPrimitives,
@@ -57,19 +59,6 @@ pub enum SingleLeaves {
     Bounded,
 }
 
-impl SingleLeaves {
-    /// How far both parts of a cell must reach from a plane, in units of its signed
-    /// distance. A part within the slack is visited by every ray that comes as near
-    /// to the plane; it pays nevertheless, as a test of a primitive's plane, unless
-    /// leaves have that test anyway.
-    pub(crate) fn least_thickness(self, plane: &SplitPlane) -> f64 {
-        match self {
-            Self::Plain => 0.0,
-            Self::Planar | Self::Bounded => plane.slack(),
-        }
-    }
-}
-
 impl Default for BspBuilder {
     fn default() -> Self {
         Self {
@@ -78,7 +67,7 @@ impl Default for BspBuilder {
             single_leaves: SingleLeaves::default(),
             epsilon: 1.0 / (1 << 20) as f64,
             sampled_primitives: Some(64),
-            max_duplication: 16.0,
+            max_duplication: 64.0,
             invalid_primitives: InvalidPrimitives::default(),
             budget: BuildBudget::default(),
         }
@@ -252,9 +241,10 @@ impl<P: Polygonal> Strategy<'_, P> {
 fn children(task: &Task, split: &Split, cells: [Polytope; 2]) -> [Task; 2] {
     let left = task.duplicates - split.straddling.min(task.duplicates);
     let parts = task.pieces.divide(&split.plane, split.planar_in_front);
-    let total = (parts[0].len() + parts[1].len()).max(1);
-    let shares = [0, 1]
-        .map(|side: usize| (left as u128 * parts[side].len() as u128 / total as u128) as usize);
+    // A single piece is not cut any further.
+    let weights = [0, 1].map(|side: usize| parts[side].len().saturating_sub(1) as u128);
+    let total = (weights[0] + weights[1]).max(1);
+    let shares = weights.map(|weight| (left as u128 * weight / total) as usize);
     let [behind, in_front] = parts;
     let [cell_behind, cell_in_front] = cells;
     [

@@ -1,6 +1,7 @@
 //! The planes worth trying (Ize 2008, section 3.4).
 
 use accel_core::Polygonal;
+use accel_core::glam::Vec3;
 
 use crate::pieces::pad_of;
 use crate::split_plane::SplitPlane;
@@ -29,4 +30,12 @@ pub(crate) fn slack_of<P: Polygonal>(primitive: &P) -> f64 {
     let bounds = primitive.bounds();
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     4.0 * pad_of(primitive) + RELATIVE_PLACEMENT * f64::from(largest)
+}
+
+/// Whether a primitive lies on a plane, within its slack.
+pub(crate) fn lies_on<P: Polygonal>(primitive: &P, plane: &SplitPlane) -> bool {
+    let distance = |corner: Vec3| plane.signed_distance(corner.as_dvec3());
+    primitive
+        .vertices()
+        .all(|corner| distance(corner).abs() <= plane.slack())
 }

@@ -8,10 +8,10 @@
 //! ```
 
 use accel_core::Polygonal;
-use accel_core::geometry::Axis;
+use accel_core::geometry::{Axis, Side};
 
-use crate::builder::BspBuilder;
-use crate::candidates::{RELATIVE_PLACEMENT, planes_of};
+use crate::builder::{BspBuilder, SingleLeaves};
+use crate::candidates::{RELATIVE_PLACEMENT, lies_on, planes_of};
 use crate::ends::Ends;
 use crate::pieces::{Counts, Pieces};
 use crate::polytope::Polytope;
@@ -144,9 +144,7 @@ impl<'a, P: Polygonal> Search<'a, P> {
         if !self.may_improve(linear + least, fixed + least, is_axis_aligned) {
             return;
         }
-        let thickness = self.builder.single_leaves.least_thickness(plane);
-        let areas = self.cell.split_areas(plane, thickness, &mut self.distances);
-        let Some(areas) = areas else {
+        let Some(areas) = self.split_areas(plane, counts) else {
             return;
         };
         for planar_in_front in [false, true] {
@@ -171,6 +169,34 @@ impl<'a, P: Polygonal> Search<'a, P> {
                 keep_cheaper(&mut self.best.axis_aligned, split(fixed + children));
             }
         }
+    }
+
+    /// The areas of both parts, `None` if one has no volume, or is a trap.
+    ///
+    /// A part that reaches no further from the plane than its slack is visited by
+    /// every ray that comes as near. Around primitives that lie on the plane it
+    /// pays nevertheless, as a test of their plane, unless leaves have that test
+    /// anyway. Corners of others are caught there for good: their own planes,
+    /// rounded, miss the part.
+    fn split_areas(&mut self, plane: &SplitPlane, counts: Counts) -> Option<[f64; 2]> {
+        let (cell, slack) = (self.cell, plane.slack());
+        let thick = cell.split_areas(plane, slack, &mut self.distances);
+        let may_be_thin = self.builder.single_leaves == SingleLeaves::Plain;
+        if thick.is_some() || !may_be_thin || counts.straddling > 0 {
+            return thick;
+        }
+        let thin = cell.split_areas(plane, 0.0, &mut self.distances);
+        thin.filter(|_| self.are_wholly_planar(plane))
+    }
+
+    /// Whether the pieces on the plane are parts of primitives on the plane.
+    fn are_wholly_planar(&self, plane: &SplitPlane) -> bool {
+        let pieces = 0..self.pieces.len();
+        let mut planar = pieces.filter(|&piece| self.pieces.side(piece, plane) == Side::Planar);
+        planar.all(|piece| {
+            let id = self.pieces.ids()[piece];
+            lies_on(&self.primitives[id as usize], plane)
+        })
     }
 
     fn may_improve(&self, linear: f64, fixed: f64, is_axis_aligned: bool) -> bool {

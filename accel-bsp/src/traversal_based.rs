@@ -10,7 +10,7 @@ use accel_core::Polygonal;
 use accel_core::glam::{DVec3, Vec3};
 
 use crate::BspTree;
-use crate::candidates::slack_of;
+use crate::candidates::{lies_on, slack_of};
 use crate::cells::{Ancestor, for_each_cell};
 use crate::node::{Node, NodeKind};
 use crate::pieces::Pieces;
@@ -49,7 +49,6 @@ fn bounding_depth<P: Polygonal>(primitive: &P, cell: &Polytope, path: &[Ancestor
     let mut faces = cell.cut_faces();
     faces.find_map(|(depth, face)| {
         let plane = &path[depth as usize].plane;
-        let is_on_plane = |&corner: &DVec3| plane.signed_distance(corner).abs() <= plane.slack();
         let face: Vec<DVec3> = face.collect();
         let is_face_inside = || {
             face.iter()
@@ -64,7 +63,7 @@ fn bounding_depth<P: Polygonal>(primitive: &P, cell: &Polytope, path: &[Ancestor
                 corners.all(|&point| is_inside(point, &face, tolerance))
             })
         };
-        let qualifies = corners.iter().all(is_on_plane) && is_face_inside() && is_part_inside();
+        let qualifies = lies_on(primitive, plane) && is_face_inside() && is_part_inside();
         qualifies.then_some(depth)
     })
 }
