@@ -5,6 +5,7 @@ use accel_core::reference::gather;
 use accel_core::{BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Polygonal};
 
 use crate::BspTree;
+use crate::allowance::Allowance;
 use crate::cost::BspCosts;
 use crate::pieces::Pieces;
 use crate::polytope::Polytope;
@@ -36,6 +37,13 @@ pub struct BspBuilder {
     /// but corners where many primitives meet need a large share.
     /// Finite and at least 0.
     pub max_duplication: f64,
+    /// How many nodes the tree may have, at least 1; nodes without a share of them
+    /// become leaves. `None` for as many as indices can tell apart.
+    pub max_nodes: Option<usize>,
+    /// How many candidate planes may be weighed in all, for each primitive; nodes
+    /// whose share is spent become leaves. At least 1. A scan weighs about a
+    /// thousand; the limit is for scenes in which everything straddles.
+    pub max_candidates: usize,
     /// Whether primitives without finite bounds are refused or left out.
     pub invalid_primitives: InvalidPrimitives,
     /// Limits on memory and depth.
@@ -68,6 +76,8 @@ impl Default for BspBuilder {
             epsilon: 1.0 / (1 << 20) as f64,
             sampled_primitives: Some(64),
             max_duplication: 64.0,
+            max_nodes: None,
+            max_candidates: 1 << 14,
             invalid_primitives: InvalidPrimitives::default(),
             budget: BuildBudget::default(),
         }
@@ -136,12 +146,13 @@ impl BspBuilder {
         let strategy = Strategy {
             builder: self,
             primitives,
+            observer,
         };
         let count = gathered.references.len();
         let task = Task {
             pieces: Pieces::new(primitives, &gathered.references),
             cell: Polytope::of_box(&bounds),
-            duplicates: (self.max_duplication * count as f64) as usize,
+            allowance: Allowance::new(self, count),
         };
         drop(gathered.references);
         let tree = build_top_down(&strategy, task, 0, observer)?;
@@ -168,6 +179,12 @@ impl BspBuilder {
         if self.sampled_primitives == Some(0) {
             return reject("sampled_primitives", "0".into(), "1 or more");
         }
+        if self.max_nodes == Some(0) {
+            return reject("max_nodes", "0".into(), "1 or more");
+        }
+        if self.max_candidates == 0 {
+            return reject("max_candidates", "0".into(), "1 or more");
+        }
         if !(0.0..f64::INFINITY).contains(&self.max_duplication) {
             return reject(
                 "max_duplication",
@@ -191,13 +208,13 @@ impl BspBuilder {
 struct Task {
     pieces: Pieces,
     cell: Polytope,
-    /// How many references the subtree may still add.
-    duplicates: usize,
+    allowance: Allowance,
 }
 
 struct Strategy<'a, P> {
     builder: &'a BspBuilder,
     primitives: &'a [P],
+    observer: &'a dyn BuildObserver,
 }
 
 impl<P: Polygonal> TopDown for Strategy<'_, P> {
@@ -223,40 +240,42 @@ impl<P: Polygonal> Strategy<'_, P> {
     /// The best split that is cheaper than a leaf and cuts the cell cleanly.
     fn split(&self, task: &Task, depth: u32) -> Option<(SplitPlane, [Task; 2])> {
         let (pieces, cell) = (&task.pieces, &task.cell);
-        if pieces.len() == 0 || depth >= self.builder.budget.max_depth {
+        let may_divide = depth < self.builder.budget.max_depth && task.allowance.nodes >= 3;
+        // The recursion asks only now and then, and an exhaustive search is slow:
+        // leaves bring it there at once.
+        if pieces.len() == 0 || !may_divide || self.observer.is_cancelled() {
             return None;
         }
-        let costs = &self.builder.costs;
-        let leaf_cost = costs.heuristic(0.0).leaf_cost(pieces.len());
-        let search = Search::new(self.builder, self.primitives, pieces, cell, task.duplicates);
-        let mut splits = search.run().cheaper_than(leaf_cost);
-        splits.find_map(|split| {
+        let leaf_cost = self.builder.costs.heuristic(0.0).leaf_cost(pieces.len());
+        let search = Search::new(self.builder, self.primitives, pieces, cell, task.allowance);
+        let (splits, candidates) = search.run();
+        splits.cheaper_than(leaf_cost).find_map(|split| {
             let cells = cell.cut(&split.plane).ok()?;
-            Some((split.plane, children(task, &split, cells)))
+            let left = Allowance {
+                duplicates: task.allowance.duplicates.saturating_sub(split.straddling),
+                candidates,
+                ..task.allowance
+            };
+            Some((split.plane, children(task, &split, cells, left)))
         })
     }
 }
 
-/// Both tasks, what is left of the duplicates shared by size.
-fn children(task: &Task, split: &Split, cells: [Polytope; 2]) -> [Task; 2] {
-    let left = task.duplicates - split.straddling.min(task.duplicates);
-    let parts = task.pieces.divide(&split.plane, split.planar_in_front);
-    // A single piece is not cut any further.
-    let weights = [0, 1].map(|side: usize| parts[side].len().saturating_sub(1) as u128);
-    let total = (weights[0] + weights[1]).max(1);
-    let shares = weights.map(|weight| (left as u128 * weight / total) as usize);
-    let [behind, in_front] = parts;
+/// Both tasks, which share what is left.
+fn children(task: &Task, split: &Split, cells: [Polytope; 2], left: Allowance) -> [Task; 2] {
+    let [behind, in_front] = task.pieces.divide(&split.plane, split.planar_in_front);
+    let allowances = left.shared([behind.len(), in_front.len()]);
     let [cell_behind, cell_in_front] = cells;
     [
         Task {
             pieces: behind,
             cell: cell_behind,
-            duplicates: shares[0],
+            allowance: allowances[0],
         },
         Task {
             pieces: in_front,
             cell: cell_in_front,
-            duplicates: shares[1],
+            allowance: allowances[1],
         },
     ]
 }

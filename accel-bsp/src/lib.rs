@@ -41,6 +41,7 @@
 //! the planes of at most `sampled_primitives` primitives, each counted in less
 //! than O(n) time where few primitives are near it.
 
+mod allowance;
 mod bsp_tree;
 mod builder;
 mod candidates;

@@ -10,6 +10,7 @@
 use accel_core::Polygonal;
 use accel_core::geometry::{Axis, Side};
 
+use crate::allowance::Allowance;
 use crate::builder::{BspBuilder, SingleLeaves};
 use crate::candidates::{RELATIVE_PLACEMENT, lies_on, planes_of};
 use crate::ends::Ends;
@@ -54,8 +55,8 @@ pub(crate) struct Search<'a, P> {
     primitives: &'a [P],
     pieces: &'a Pieces,
     cell: &'a Polytope,
-    /// How many pieces may be duplicated.
-    duplicates: usize,
+    /// What is left of it; every candidate takes one.
+    allowance: Allowance,
     best: Splits,
     distances: Vec<f64>,
 }
@@ -66,20 +67,21 @@ impl<'a, P: Polygonal> Search<'a, P> {
         primitives: &'a [P],
         pieces: &'a Pieces,
         cell: &'a Polytope,
-        duplicates: usize,
+        allowance: Allowance,
     ) -> Self {
         Self {
             builder,
             primitives,
             pieces,
             cell,
-            duplicates,
+            allowance,
             best: Splits::default(),
             distances: Vec::new(),
         }
     }
 
-    pub(crate) fn run(mut self) -> Splits {
+    /// The best splits, and how many candidates are left to others.
+    pub(crate) fn run(mut self) -> (Splits, usize) {
         let [low, high] = self.pieces.bounds();
         let local = self.builder.epsilon * (high - low).max_element();
         let placement = RELATIVE_PLACEMENT * low.abs().max(high.abs()).max_element();
@@ -91,11 +93,14 @@ impl<'a, P: Polygonal> Search<'a, P> {
         for piece in (0..self.pieces.len()).step_by(stride) {
             let primitive = &self.primitives[self.pieces.ids()[piece] as usize];
             for plane in planes_of(primitive, local) {
+                if !self.takes_candidate() {
+                    return (self.best, 0);
+                }
                 let counts = hierarchy.count(&plane);
                 self.weigh(&plane, counts);
             }
         }
-        self.best
+        (self.best, self.allowance.candidates)
     }
 
     /// Every how many pieces one offers its planes. In the largest nodes fewer
@@ -114,6 +119,9 @@ impl<'a, P: Polygonal> Search<'a, P> {
     fn sweep(&mut self, axis: Axis, slack: f64) {
         let ends = Ends::new(self.pieces, axis, slack);
         for position in ends.positions() {
+            if !self.takes_candidate() {
+                return;
+            }
             let plane = SplitPlane::axis_aligned(axis, position, slack);
             let counts = ends.count(f64::from(position));
             if self.builder.axis_aligned_nodes {
@@ -124,10 +132,17 @@ impl<'a, P: Polygonal> Search<'a, P> {
         }
     }
 
+    /// Takes one candidate from the allowance, if any is left.
+    fn takes_candidate(&mut self) -> bool {
+        let left = self.allowance.candidates.checked_sub(1);
+        self.allowance.candidates = left.unwrap_or(0);
+        left.is_some()
+    }
+
     /// Keeps the plane if it is the best so far, planar pieces going where it is
     /// cheaper.
     fn weigh(&mut self, plane: &SplitPlane, counts: Counts) {
-        if counts.straddling > self.duplicates {
+        if counts.straddling > self.allowance.duplicates {
             return;
         }
         let costs = &self.builder.costs;
