@@ -71,6 +71,6 @@ pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_m
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
     ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, Polygonal, PreparedRay, Primitive,
-    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    Quad, Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters,
+    TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -1,6 +1,7 @@
 //! What a structure is built over.
 
 mod mesh;
+mod quad;
 mod sphere;
 mod surface;
 mod triangle;
@@ -14,6 +15,7 @@ use crate::query::Hit;
 use crate::ray::PreparedRay;
 
 pub use mesh::{MeshError, triangles_of_mesh};
+pub use quad::Quad;
 pub use sphere::Sphere;
 pub use surface::{Face, SurfacePoint};
 pub use triangle::Triangle;

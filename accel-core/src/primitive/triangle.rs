@@ -130,7 +130,7 @@ impl Polygonal for Triangle {
 
 /// The unit normal of the plane through an edge, orthogonal to the face; zero
 /// where the edge has no length.
-fn edge_normal(from: Vec3, to: Vec3, face_normal: Vec3) -> Vec3 {
+pub(super) fn edge_normal(from: Vec3, to: Vec3, face_normal: Vec3) -> Vec3 {
     let edge = to.as_dvec3() - from.as_dvec3();
     edge.cross(face_normal.as_dvec3())
         .normalize_or_zero()
