@@ -6,6 +6,7 @@ use accel_core::{BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Poly
 
 use crate::BspTree;
 use crate::allowance::Allowance;
+use crate::candidates::CandidatePlanes;
 use crate::cost::BspCosts;
 use crate::pieces::Pieces;
 use crate::polytope::Polytope;
@@ -28,6 +29,8 @@ pub struct BspBuilder {
     /// values need fewer planes for surfaces that are almost flat, but traversal
     /// visits both sides more often.
     pub epsilon: f64,
+    /// Which planes are tried.
+    pub candidate_planes: CandidatePlanes,
     /// In larger nodes, of how many primitives, evenly picked, the planes are
     /// tried; axis-aligned planes are tried for all. `None` is the paper's
     /// exhaustive search. At least 1.
@@ -74,6 +77,7 @@ impl Default for BspBuilder {
             axis_aligned_nodes: true,
             single_leaves: SingleLeaves::default(),
             epsilon: 1.0 / (1 << 20) as f64,
+            candidate_planes: CandidatePlanes::default(),
             sampled_primitives: Some(64),
             max_duplication: 64.0,
             max_nodes: None,
@@ -173,6 +177,7 @@ impl BspBuilder {
         };
         self.costs.validate()?;
         self.budget.validate()?;
+        self.candidate_planes.validate()?;
         if !(1.0 / (1 << 24) as f64..=1.0 / (1 << 14) as f64).contains(&self.epsilon) {
             return reject("epsilon", self.epsilon.to_string(), "2^-24 to 2^-14");
         }

@@ -62,6 +62,7 @@ mod unconfirmed;
 
 pub use bsp_tree::{BspShape, BspTree};
 pub use builder::{BspBuilder, SingleLeaves};
+pub use candidates::{CandidatePlanes, GeneralPlanes};
 pub use cost::BspCosts;
 pub use node::NODE_BYTES;
 pub use unconfirmed::UnconfirmedHit;

@@ -12,7 +12,7 @@ use accel_core::geometry::{Axis, Side};
 
 use crate::allowance::Allowance;
 use crate::builder::{BspBuilder, SingleLeaves};
-use crate::candidates::{RELATIVE_PLACEMENT, lies_on, planes_of};
+use crate::candidates::{Neighbors, RELATIVE_PLACEMENT, lies_on, planes_of};
 use crate::ends::Ends;
 use crate::pieces::{Counts, Pieces};
 use crate::polytope::Polytope;
@@ -88,19 +88,46 @@ impl<'a, P: Polygonal> Search<'a, P> {
         for axis in Axis::ALL {
             self.sweep(axis, local.max(placement));
         }
-        let hierarchy = SphereHierarchy::new(self.pieces);
-        let stride = self.stride();
-        for piece in (0..self.pieces.len()).step_by(stride) {
-            let primitive = &self.primitives[self.pieces.ids()[piece] as usize];
-            for plane in planes_of(primitive, local) {
-                if !self.takes_candidate() {
-                    return (self.best, 0);
-                }
-                let counts = hierarchy.count(&plane);
-                self.weigh(&plane, counts);
-            }
+        let candidates = self.builder.candidate_planes;
+        if candidates
+            .general
+            .are_tried(self.pieces.len(), || self.gain())
+        {
+            self.try_general(local);
         }
         (self.best, self.allowance.candidates)
+    }
+
+    /// What part of the cost of a leaf the best plane so far saves.
+    fn gain(&self) -> f64 {
+        let leaf = self
+            .builder
+            .costs
+            .heuristic(0.0)
+            .leaf_cost(self.pieces.len());
+        self.best.fixed.map_or(0.0, |split| 1.0 - split.cost / leaf)
+    }
+
+    /// Weighs the planes of the primitives.
+    fn try_general(&mut self, local: f64) {
+        let hierarchy = SphereHierarchy::new(self.pieces);
+        let neighbors = Neighbors {
+            primitives: self.primitives,
+            pieces: self.pieces,
+            stride: self.stride(),
+            slack: local,
+        };
+        let ids = self.pieces.ids().iter().step_by(neighbors.stride);
+        let primitives = ids.map(|&id| &self.primitives[id as usize]);
+        let own = primitives.flat_map(|primitive| planes_of(primitive, local));
+        let common = self.builder.candidate_planes.of_neighbors(&neighbors);
+        for plane in own.chain(common) {
+            if !self.takes_candidate() {
+                return;
+            }
+            let counts = hierarchy.count(&plane);
+            self.weigh(&plane, counts);
+        }
     }
 
     /// Every how many pieces one offers its planes. In the largest nodes fewer

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use accel_bsp::{
     AccelerationStructure, BspBuilder, BspCosts, BspTree, BuildBudget, BuildError, BuildObserver,
-    InvalidPrimitives, NODE_BYTES, RaySegment, Triangle,
+    CandidatePlanes, GeneralPlanes, InvalidPrimitives, NODE_BYTES, RaySegment, Triangle,
 };
 use accel_core::testing::agreement::oracle;
 use accel_core::testing::{families, rays};
@@ -58,6 +58,16 @@ fn settings_out_of_range_are_named() {
             "sampled_primitives",
             BspBuilder {
                 sampled_primitives: Some(0),
+                ..default
+            },
+        ),
+        (
+            "general",
+            BspBuilder {
+                candidate_planes: CandidatePlanes {
+                    general: GeneralPlanes::BelowGain(f64::NAN),
+                    ..CandidatePlanes::default()
+                },
                 ..default
             },
         ),

@@ -1,6 +1,9 @@
 //! What settings do.
 
-use accel_bsp::{AccelerationStructure, BspBuilder, BspCosts, RaySegment, Triangle};
+use accel_bsp::{
+    AccelerationStructure, BspBuilder, BspCosts, CandidatePlanes, GeneralPlanes, RaySegment,
+    Triangle,
+};
 use accel_core::testing::agreement::oracle;
 
 use crate::{Built, Failure, cost, count, per_ray, rays};
@@ -26,6 +29,9 @@ pub(crate) fn run(options: &Options, triangles: &[Triangle]) -> Result<(), Failu
     }
     if options.costs {
         sweep_costs(triangles)?;
+    }
+    if options.planes {
+        try_planes(triangles)?;
     }
     if options.exhaustive > 0 {
         compare_with_exhaustive(&triangles[..options.exhaustive.min(triangles.len())])?;
@@ -75,6 +81,40 @@ fn sweep_costs(triangles: &[Triangle]) -> Result<(), Failure> {
                 per_ray(&counters),
             );
         }
+    }
+    Ok(())
+}
+
+/// The candidate planes of section 6.1, one kind at a time.
+fn try_planes(triangles: &[Triangle]) -> Result<(), Failure> {
+    let paper = CandidatePlanes::default();
+    let general = |general| CandidatePlanes { general, ..paper };
+    let choices = [
+        paper,
+        general(GeneralPlanes::UpTo(1000)),
+        general(GeneralPlanes::UpTo(64)),
+        general(GeneralPlanes::BelowGain(0.4)),
+        CandidatePlanes {
+            shared_edges: true,
+            ..paper
+        },
+        CandidatePlanes {
+            tangents: 2,
+            ..paper
+        },
+    ];
+    for candidate_planes in choices {
+        let builder = BspBuilder {
+            candidate_planes,
+            ..BspBuilder::default()
+        };
+        let built = Built::new(&builder, triangles)?;
+        let rays = rays::paths(&built.tree);
+        println!(
+            "  {candidate_planes:?}\n    {}\n    {}",
+            built.describe(),
+            per_ray(&count(&built.tree, &rays, false).0),
+        );
     }
     Ok(())
 }
