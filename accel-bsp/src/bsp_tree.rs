@@ -5,8 +5,10 @@ use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
+use crate::crossing::Tolerance;
 use crate::node::{Node, NodeKind};
-use crate::traversal::{Tolerance, Untracked, traverse};
+use crate::plane_tracking::Untracked;
+use crate::traversal::traverse;
 
 /// A general BSP tree in nodes of 20 bytes. Made by
 /// [`BspBuilder`](crate::BspBuilder); owns its primitives.

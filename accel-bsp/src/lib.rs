@@ -30,11 +30,13 @@
 //! IEEE Symposium on Interactive Ray Tracing 2008.
 //!
 //! # Reading order
-//! [`BspBuilder`] takes settings; `search` finds the best plane, with the counts
-//! of `sphere_hierarchy` and the areas of `polytope`, by the costs of `cost`;
-//! `pieces` divides what the node holds; `layout` packs the tree into the nodes of
-//! `node`; `traversal` walks them; `traversal_based` and `unconfirmed` are the
-//! paper's triangle test without a triangle test; `persistence` saves and loads.
+//! [`BspBuilder`] takes settings; `search` finds the best of the planes of
+//! `candidates`, with the counts of `ends` and `sphere_hierarchy` and the areas of
+//! `polytope`, by the costs of `cost`; `pieces` divides what the node holds and
+//! `allowance` what it may use; `layout` packs the tree into the nodes of `node`;
+//! `traversal` walks them by the `crossing` of ray and plane; `traversal_based` and
+//! `unconfirmed` are the paper's triangle test without a triangle test; `cells`
+//! walks a finished tree for its cost; `persistence` saves and loads.
 //!
 //! # Complexity
 //! A node of n primitives weighs O(n) axis-aligned planes in O(n log n) time, and
@@ -47,11 +49,13 @@ mod builder;
 mod candidates;
 mod cells;
 mod cost;
+mod crossing;
 mod ends;
 mod layout;
 mod node;
 mod persistence;
 mod pieces;
+mod plane_tracking;
 mod polytope;
 mod search;
 mod sphere_hierarchy;

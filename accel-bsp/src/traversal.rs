@@ -13,8 +13,6 @@
 
 use std::ops::ControlFlow;
 
-use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
-use accel_core::glam::{DVec3, Vec3};
 use accel_core::layout::LeafStorage;
 use accel_core::query::{Hit, Query};
 use accel_core::ray::max_or_keep;
@@ -23,87 +21,9 @@ use accel_core::structure::TraversalStack;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
+use crate::crossing::{DoubleRay, Segment, Tolerance};
 use crate::node::{NODE_BYTES, NodeKind};
-
-/// What tau is made of. Both parts are needed: tests show that hits are lost
-/// without either.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tolerance {
-    /// How much of the slack that the build used.
-    pub slack: f64,
-    /// How far a hit may be off, relative to how far the ray has come: the
-    /// kernel's rounding of vertices, of `t`, and the gate's clamp.
-    pub rounding: f64,
-}
-
-impl Tolerance {
-    pub(crate) const SAFE: Self = Self {
-        slack: 1.0,
-        rounding: 16.0 * UNIT_ROUNDOFF as f64,
-    };
-}
-
-/// What a part of the ray knows of the planes that it lies between.
-pub(crate) trait PlaneTracking: Copy {
-    /// Of the whole ray inside the scene's box.
-    fn of_ray(near: f64, far: f64) -> Self;
-
-    /// In a child, if the ray passes the plane on one side.
-    fn on_one_side(self) -> Self;
-
-    /// In the nearer child and the farther one, if the plane is at this `t`.
-    fn divided(self, at: f64) -> [Self; 2];
-
-    /// What a leaf answers whose primitive covers the face that the node at
-    /// `depth` has cut.
-    fn leaf_answer(&self, depth: u32) -> LeafAnswer;
-}
-
-/// What is known of the primitive of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum LeafAnswer {
-    /// Nothing: its kernel must decide.
-    AskKernel,
-    /// It is hit there.
-    Hit(f64),
-    /// It is missed.
-    Miss,
-}
-
-/// Knows nothing, for the queries that kernels answer.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Untracked;
-
-impl PlaneTracking for Untracked {
-    #[inline]
-    fn of_ray(_: f64, _: f64) -> Self {
-        Self
-    }
-
-    #[inline]
-    fn on_one_side(self) -> Self {
-        self
-    }
-
-    #[inline]
-    fn divided(self, _: f64) -> [Self; 2] {
-        [self; 2]
-    }
-
-    #[inline]
-    fn leaf_answer(&self, _: u32) -> LeafAnswer {
-        LeafAnswer::AskKernel
-    }
-}
-
-/// A node put off, with the part of the ray inside.
-#[derive(Clone, Copy, Debug)]
-struct Segment<T> {
-    node: u32,
-    near: f64,
-    far: f64,
-    planes: T,
-}
+use crate::plane_tracking::{LeafAnswer, PlaneTracking};
 
 pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
@@ -149,39 +69,8 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
             }
             leaf => {
                 statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
-                let leaf = match leaf {
-                    NodeKind::Leaf(leaf) => Some(leaf),
-                    NodeKind::PlanarLeaf {
-                        normal,
-                        offset,
-                        leaf,
-                    } => {
-                        statistics.test_planes(1);
-                        let crossing = ray_in_double.general(normal, offset, segment.far);
-                        crossing.meets(&segment).then_some(leaf)
-                    }
-                    NodeKind::BoundedLeaf { depth, leaf } => {
-                        match segment.planes.leaf_answer(depth) {
-                            LeafAnswer::AskKernel => Some(leaf),
-                            answer => {
-                                statistics.test_planes(1);
-                                if let LeafAnswer::Hit(t) = answer
-                                    && offer_unconfirmed(tree, leaf, t, ray, query).is_break()
-                                {
-                                    return;
-                                }
-                                None
-                            }
-                        }
-                    }
-                    _ => None,
-                };
-                let leaves = tree.stored.leaves();
-                if let Some(leaf) = leaf
-                    && leaves
-                        .intersect_leaf(leaf, ray, query, statistics)
-                        .is_break()
-                {
+                let tested = test_leaf(tree, leaf, &segment, &ray_in_double, query, statistics);
+                if tested.is_break() {
                     return;
                 }
                 match stack.pop_within(query.t_max()) {
@@ -201,6 +90,49 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
         }
         segment = nearer;
     }
+}
+
+/// Offers the hits in a leaf, without asking the kernel where the traversal knows
+/// better.
+#[inline]
+fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
+    tree: &BspTree<P>,
+    leaf: NodeKind,
+    segment: &Segment<T>,
+    ray_in_double: &DoubleRay<'_>,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
+    let ray = ray_in_double.ray;
+    let leaf = match leaf {
+        NodeKind::Leaf(leaf) => leaf,
+        NodeKind::PlanarLeaf {
+            normal,
+            offset,
+            leaf,
+        } => {
+            statistics.test_planes(1);
+            let crossing = ray_in_double.general(normal, offset, segment.far);
+            if !crossing.meets(segment) {
+                return ControlFlow::Continue(());
+            }
+            leaf
+        }
+        NodeKind::BoundedLeaf { depth, leaf } => match segment.planes.leaf_answer(depth) {
+            LeafAnswer::AskKernel => leaf,
+            LeafAnswer::Hit(t) => {
+                statistics.test_planes(1);
+                return offer_unconfirmed(tree, leaf, t, ray, query);
+            }
+            LeafAnswer::Miss => {
+                statistics.test_planes(1);
+                return ControlFlow::Continue(());
+            }
+        },
+        _ => return ControlFlow::Continue(()),
+    };
+    let leaves = tree.stored.leaves();
+    leaves.intersect_leaf(leaf, ray, query, statistics)
 }
 
 /// Offers a hit of a leaf's one primitive that the traversal has found.
@@ -224,124 +156,10 @@ fn offer_unconfirmed<P: Primitive, Q: Query>(
     }
 }
 
-/// The ray, and its tolerance, in double precision.
-struct DoubleRay {
-    origin: DVec3,
-    direction: DVec3,
-    reciprocal: DVec3,
-    /// The rounding of a hit per unit of `t`.
-    rounding: DVec3,
-    slack: f64,
-}
-
-/// A ray's signed distance from a plane: `start + t * slope`.
-struct Crossing {
-    start: f64,
-    slope: f64,
-    /// Where it is zero; of no meaning where the slope is.
-    at: f64,
-    tau: f64,
-    /// How much of `t` tau is worth.
-    reach: f64,
-}
-
-impl DoubleRay {
-    fn new(ray: &PreparedRay, tolerance: Tolerance) -> Self {
-        let direction = ray.direction().as_dvec3();
-        Self {
-            origin: ray.origin().as_dvec3(),
-            direction,
-            reciprocal: direction.recip(),
-            rounding: direction.abs() * tolerance.rounding,
-            slack: tolerance.slack,
-        }
-    }
-
-    /// The fast path of a kd-tree: one subtraction and two multiplications.
-    #[inline]
-    fn axis_aligned(&self, axis: Axis, position: f32, slack: f32, far: f64) -> Crossing {
-        let index = axis.index();
-        let start = self.origin[index] - f64::from(position);
-        let tau = f64::from(slack) * self.slack + self.rounding[index] * far;
-        let reciprocal = self.reciprocal[index];
-        Crossing {
-            start,
-            slope: self.direction[index],
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
-        }
-    }
-
-    #[inline]
-    fn general(&self, normal: Vec3, offset: f32, far: f64) -> Crossing {
-        let normal = normal.as_dvec3();
-        let start = normal.dot(self.origin) - f64::from(offset);
-        let slope = normal.dot(self.direction);
-        let tau = self.slack + normal.abs().dot(self.rounding) * far;
-        let reciprocal = 1.0 / slope;
-        Crossing {
-            start,
-            slope,
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
-        }
-    }
-}
-
-impl Crossing {
-    /// Signed distances of both ends.
-    #[inline]
-    fn ends<T>(&self, segment: &Segment<T>) -> [f64; 2] {
-        [segment.near, segment.far].map(|t| self.start + t * self.slope)
-    }
-
-    /// Whether the ray comes within tau of the plane.
-    #[inline]
-    fn meets<T>(&self, segment: &Segment<T>) -> bool {
-        let [s0, s1] = self.ends(segment);
-        !(s0 > self.tau && s1 > self.tau || s0 < -self.tau && s1 < -self.tau)
-    }
-
-    /// The child that the ray enters first, and the other one if it enters both.
-    #[inline]
-    fn divide<T: PlaneTracking>(
-        &self,
-        segment: &Segment<T>,
-        back: u32,
-    ) -> (Segment<T>, Option<Segment<T>>) {
-        let [s0, s1] = self.ends(segment);
-        let planes = segment.planes.on_one_side();
-        let of = |node| Segment {
-            node,
-            planes,
-            ..*segment
-        };
-        if s0 > self.tau && s1 > self.tau {
-            return (of(back + 1), None);
-        }
-        if s0 < -self.tau && s1 < -self.tau {
-            return (of(back), None);
-        }
-        let [mut nearer, mut farther] = if self.slope < 0.0 {
-            [of(back + 1), of(back)]
-        } else {
-            [of(back), of(back + 1)]
-        };
-        [nearer.planes, farther.planes] = segment.planes.divided(self.at);
-        // Where the whole segment is within tau, no division by a tiny slope.
-        if (s1 - s0).abs() > self.tau {
-            nearer.far = nearer.far.min(self.at + self.reach);
-            farther.near = farther.near.max(self.at - self.reach);
-        }
-        (nearer, Some(farther))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plane_tracking::Untracked;
     use crate::{BspBuilder, InvalidPrimitives};
     use accel_core::testing::agreement::oracle;
     use accel_core::testing::{families, rays};

@@ -12,8 +12,10 @@ use accel_core::statistics::TraversalStatistics;
 use accel_core::{AccelerationStructure, ClosestHit, Polygonal, PreparedRay, Ray};
 
 use crate::BspTree;
+use crate::crossing::Tolerance;
 use crate::node::Node;
-use crate::traversal::{LeafAnswer, PlaneTracking, Tolerance, traverse};
+use crate::plane_tracking::{LeafAnswer, PlaneTracking};
+use crate::traversal::traverse;
 
 /// A hit that no kernel has confirmed: without surface coordinates, and beside an
 /// edge perhaps of a neighbour, or of nothing.
