@@ -1,6 +1,8 @@
 //! What a subtree may use. Shared out from the root down, by size, so that the
 //! limits hold and the tree is the same for any number of threads.
 
+use accel_core::build::share_by_size;
+
 use crate::BspBuilder;
 use crate::node::MAX_INDEX;
 
@@ -30,21 +32,15 @@ impl Allowance {
     pub(crate) fn shared(self, pieces: [usize; 2]) -> [Self; 2] {
         // A single piece is not cut any further, and an empty part is a leaf.
         let divisible = pieces.map(|count| count.saturating_sub(1));
-        let duplicates = shares(self.duplicates, divisible);
-        let candidates = shares(self.candidates, pieces);
-        let nodes = shares(self.nodes.saturating_sub(3), pieces);
+        let duplicates = share_by_size(self.duplicates, divisible);
+        let candidates = share_by_size(self.candidates, pieces);
+        let nodes = share_by_size(self.nodes.saturating_sub(3), pieces);
         [0, 1].map(|side: usize| Self {
             duplicates: duplicates[side],
             nodes: 1 + nodes[side],
             candidates: candidates[side],
         })
     }
-}
-
-/// `total` in proportion to the weights, rounded down.
-fn shares(total: usize, weights: [usize; 2]) -> [usize; 2] {
-    let sum = weights[0] as u128 + weights[1] as u128;
-    weights.map(|weight| (total as u128 * weight as u128 / sum.max(1)) as usize)
 }
 
 #[cfg(test)]

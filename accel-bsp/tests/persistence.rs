@@ -3,6 +3,7 @@
 use accel_bsp::{
     AccelerationStructure, BspBuilder, BspTree, InvalidPrimitives, LoadError, Triangle,
 };
+use accel_core::testing::damage::damaged_archives;
 use accel_core::testing::{families, rays};
 
 fn scene(family: &str, count: usize) -> Vec<Triangle> {
@@ -53,37 +54,13 @@ fn a_tree_of_another_scene_is_refused() {
     assert!(matches!(error, LoadError::WrongScene { .. }), "{error}");
 }
 
-/// The checksum (FNV-1a) of bytes, so that damage passes it and meets the checks
-/// behind it.
-fn checksum(bytes: &[u8]) -> [u8; 8] {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step).to_le_bytes()
-}
-
 #[test]
 fn random_damage_is_a_typed_error_or_a_tree_that_still_answers() {
     let triangles = scene("soup-uniform", 24);
     let bytes = builder().build(&triangles).unwrap().to_bytes();
     let rays = rays::mixed(&triangles, 4, 4);
-    let content = bytes.len() - 8;
-    let mut state = 1_u64;
-    let mut random = |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 33) as usize % below
-    };
     let (mut refused, mut loaded) = (0, 0);
-    for round in 0..100_000 {
-        let mut damaged = bytes.clone();
-        for _ in 0..1 + random(3) {
-            damaged[random(content)] ^= 1 << random(8);
-        }
-        let is_resigned = round % 4 != 0;
-        if is_resigned {
-            let sum = checksum(&damaged[..content]);
-            damaged[content..].copy_from_slice(&sum);
-        }
+    for damaged in damaged_archives(&bytes, 100_000) {
         match BspTree::from_bytes(&damaged, &triangles) {
             Err(_) => refused += 1,
             Ok(tree) => {

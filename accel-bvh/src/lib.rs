@@ -30,11 +30,14 @@
 //!   Hierarchies*, 2009, sections 2.1 and 5: the full sweep and its leaf rule.
 //! - Lin, Shkurko, Mallett and Yuksel, *Dual-Split Trees*, 2019, section 5: the
 //!   uncompressed layout of 52 and 4 bytes and its leaf rule.
+//! - Fabianowski and Dingliana, *Compact BVH Storage for Ray Tracing and Photon
+//!   Mapping*, 2009: nodes of 32 bytes.
 //!
 //! # Reading order
 //! [`BvhBuilder`] takes settings and runs one of the two searches (`sweep`,
 //! `binned`); `layout` packs the tree they make into the words of `node`;
-//! `traversal` walks them; `refit` and `validate` follow.
+//! `traversal` walks them; `refit`, `validate` and `persistence` follow. `compact` converts the
+//! tree to [`CompactBvh`], whose nodes share planes.
 //!
 //! # Complexity
 //! Both builders take O(n log n) time: the depth is bounded, by falling back to
@@ -49,10 +52,13 @@ struct Readme;
 mod binned;
 mod builder;
 mod bvh;
+mod compact;
 mod layout;
 mod leaf_rule;
 mod node;
 mod node_rules;
+mod packet;
+mod persistence;
 mod reading;
 mod refit;
 mod sweep;
@@ -61,6 +67,7 @@ mod validate;
 
 pub use builder::{BvhBuilder, ObjectSplit};
 pub use bvh::Bvh;
+pub use compact::{COMPACT_NODE_BYTES, CompactBvh};
 pub use layout::ChildBounds;
 pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
@@ -71,7 +78,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment,
-    RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    ClosestHit, Filtered, Hit, InPackets, InvalidPrimitives, LoadError, PacketTraversal,
+    PreparedRay, Primitive, Query, Ray, RaySegment, RefitError, Sphere, SurfaceAreaHeuristic,
+    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

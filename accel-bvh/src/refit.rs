@@ -35,7 +35,7 @@ impl<P: Primitive> Bvh<P> {
     }
 
     /// All nodes, parents before children, left subtrees before right ones.
-    fn depth_first(&self, root: NodePointer) -> Vec<NodePointer> {
+    pub(crate) fn depth_first(&self, root: NodePointer) -> Vec<NodePointer> {
         let mut order = Vec::new();
         let mut pending = vec![root];
         while let Some(pointer) = pending.pop() {

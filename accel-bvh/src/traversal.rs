@@ -9,6 +9,8 @@
 //!     otherwise: take the child put off last that is not behind the best hit
 //! ```
 
+use std::ops::ControlFlow;
+
 use accel_core::geometry::Axis;
 use accel_core::glam::Vec3;
 use accel_core::layout::LeafStorage;
@@ -20,7 +22,7 @@ use accel_core::structure::TraversalStack;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::Bvh;
-use crate::node::{INNER_NODE_BYTES, InnerNode, LEAF_NODE_BYTES, Node};
+use crate::node::{INNER_NODE_BYTES, InnerNode, LEAF_NODE_BYTES, Node, NodePointer};
 
 pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     bvh: &Bvh<P>,
@@ -35,20 +37,27 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     if !(near <= whole.far && near <= query.t_max()) {
         return;
     }
+    let _ = traverse_below(bvh, root.pointer, ray, query, statistics);
+}
+
+/// Traverses the part of the tree below `pointer`, whose box the ray meets;
+/// breaks when the query does.
+#[inline]
+pub(crate) fn traverse_below<P: Primitive, Q: Query, S: TraversalStatistics>(
+    bvh: &Bvh<P>,
+    mut pointer: NodePointer,
+    ray: &PreparedRay,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
     let test = SiblingTest::new(ray);
     let mut stack = TraversalStack::new();
-    let mut pointer = root.pointer;
     loop {
         match pointer.kind() {
             Node::Leaf(offset) => {
                 statistics.visit_node(NodeKind::Leaf, LEAF_NODE_BYTES as u32);
                 let (leaf, leaves) = (bvh.leaf_number(offset), bvh.stored.leaves());
-                if leaves
-                    .intersect_leaf(leaf, ray, query, statistics)
-                    .is_break()
-                {
-                    return;
-                }
+                leaves.intersect_leaf(leaf, ray, query, statistics)?;
             }
             Node::Inner(offset) => {
                 statistics.visit_node(NodeKind::Inner, INNER_NODE_BYTES as u32);
@@ -81,7 +90,7 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
         }
         match stack.pop_within(query.t_max()) {
             Some(next) => pointer = next,
-            None => return,
+            None => return ControlFlow::Continue(()),
         }
     }
 }

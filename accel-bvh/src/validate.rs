@@ -13,17 +13,7 @@ impl<P: Primitive> Bvh<P> {
     /// The first [`ValidationError`] found.
     pub fn validate(&self) -> Result<(), ValidationError> {
         let outline = self.outline();
-        let actual = outline.depths().into_iter().max().unwrap_or(0);
-        if actual != self.depth {
-            return Err(ValidationError::DepthMismatch {
-                actual,
-                recorded: self.depth,
-            });
-        }
-        let gate = |id| {
-            self.primitive(id)
-                .map(|primitive| primitive.bounds().gate())
-        };
-        outline.validate(self.primitive_count(), gate)
+        outline.validate_depth(self.depth)?;
+        outline.validate_of(self)
     }
 }

@@ -82,7 +82,7 @@ pub enum RefitError {
 }
 
 /// What is wrong with a tree: found by its `validate`.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValidationError {
     /// A child reaches out of its parent's box.

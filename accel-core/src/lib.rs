@@ -32,4 +32,4 @@ pub use query::{AllHits, AnyHit, ClosestHit, Filtered, Hit, Query};
 pub use ray::{PreparedRay, Ray, RaySegment};
 pub use split::SurfaceAreaHeuristic;
 pub use statistics::{TraversalCounters, TraversalStatistics, TreeStatistics};
-pub use structure::{AccelerationStructure, DynStructure, PacketTraversal};
+pub use structure::{AccelerationStructure, DynStructure, InPackets, PacketTraversal};

@@ -59,7 +59,7 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
     print_counts("bvh", &bvh, &source, &bvh, &source);
     for (name, tree) in [("identical", &identical), ("similar", &similar)] {
         print_counts(name, tree, &count(tree, &rays), &bvh, &source);
-        println!("    {:?}", tree.dual_split_statistics());
+        println!("    {:?}", tree.node_statistics());
     }
     print_times(&bvh, [&identical, &similar], &rays);
     Ok(())

@@ -1,5 +1,19 @@
 //! What can be wrong with the words of a tree.
 
+use accel_core::archive::LoadError;
+
+/// Why a saved tree was not loaded.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlaneTreeLoadError {
+    /// The archive is not sound.
+    #[error(transparent)]
+    Archive(#[from] LoadError),
+    /// The words of its nodes are not those of a tree.
+    #[error("the archive holds no tree of this kind: {0}")]
+    Words(#[from] WordsError),
+}
+
 /// What is wrong with the words of a tree that come from elsewhere.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -7,6 +21,14 @@ pub enum WordsError {
     /// A header means nothing.
     #[error("the node at word {position} has the header {code:06b}, which is not in use")]
     UnusedCode {
+        /// The node's first word.
+        position: usize,
+        /// The six bits.
+        code: u32,
+    },
+    /// A node is of a kind that this tree does not have.
+    #[error("the node at word {position} has the header {code:06b}, of a node of other trees")]
+    ForeignNode {
         /// The node's first word.
         position: usize,
         /// The six bits.

@@ -30,30 +30,42 @@
 //! Daqi Lin, Konstantin Shkurko, Ian Mallett and Cem Yuksel, *Dual-Split Trees*,
 //! Symposium on Interactive 3D Graphics and Games 2019.
 //!
+//! The two structures that the paper compares with are made of the same parts, from
+//! the same BVH: the bounding interval hierarchy ([`Bih`]) and the H-tree
+//! ([`HTree`]).
+//!
 //! # Reading order
 //! [`DualSplitConverter`] (`convert`) chooses splitting axes (`splitting`) and
 //! carving nodes (`carving`, equation 1) and writes them (`packing`) in the words
-//! of `codec`, where the 37 headers are tabulated; `traversal` walks them;
-//! `statistics` and `validate` follow.
+//! of `codec`, where the headers are tabulated; `traversal` walks them; `statistics`,
+//! `validate` and `persistence` follow. `node_set` tells a dual-split tree, a BIH (`bih`) and an
+//! H-tree (`h_tree`) apart.
 //!
 //! # Complexity
 //! Conversion takes time in proportion to the nodes of the BVH, on all cores. A
 //! ray visits about twice the nodes that it visits in the BVH and meets about
 //! two fifths of the planes.
 
+mod bih;
 mod codec;
 mod convert;
 mod error;
+mod h_tree;
+mod node_set;
+mod persistence;
 mod statistics;
 mod traversal;
 mod tree;
 mod validate;
 
+pub use bih::{Bih, BihConverter, BihNodes};
 pub use codec::{LEAF_BYTES, NODE_BYTES};
 pub use convert::{CarvingCosts, DualSplitConverter, Partitioning};
-pub use error::WordsError;
-pub use statistics::DualSplitStatistics;
-pub use tree::DualSplitTree;
+pub use error::{PlaneTreeLoadError, WordsError};
+pub use h_tree::{BoundingCosts, HTree, HTreeConverter, HTreeNodes};
+pub use node_set::{DualSplitNodes, NodeSet};
+pub use statistics::NodeStatistics;
+pub use tree::{DualSplitTree, PlaneTree};
 pub use validate::check_words;
 
 pub use accel_bvh::{Bvh, BvhBuilder, LeafRule, ObjectSplit};
@@ -61,7 +73,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, PreparedRay, Primitive, Query, Ray, RaySegment,
-    Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics, TreeStatistics, Triangle,
-    ValidationError, glam,
+    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PreparedRay, Primitive, Query, Ray,
+    RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -3,18 +3,21 @@
 use accel_core::Primitive;
 
 use crate::codec::{CarvingPlanes, Header};
-use crate::tree::DualSplitTree;
+use crate::node_set::NodeSet;
+use crate::tree::PlaneTree;
 
 /// Counts of nodes. A carving node that is a leaf counts as a carving node, as in
 /// the paper's Table 2.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DualSplitStatistics {
+pub struct NodeStatistics {
     /// Splitting nodes.
     pub splitting: usize,
     /// Carving nodes with both planes on one axis.
     pub single_axis_carving: usize,
     /// Carving nodes with a plane on each of two axes.
     pub dual_axis_carving: usize,
+    /// Bounding nodes on two or three axes, which an H-tree has.
+    pub bounding: usize,
     /// Of the carving nodes, those that are leaves.
     pub carving_leaves: usize,
     /// Leaves without planes.
@@ -24,10 +27,10 @@ pub struct DualSplitStatistics {
     pub carving_levels: [usize; 4],
 }
 
-impl DualSplitStatistics {
-    /// Carving nodes of both kinds.
+impl NodeStatistics {
+    /// Carving nodes of all kinds.
     pub fn carving(&self) -> usize {
-        self.single_axis_carving + self.dual_axis_carving
+        self.single_axis_carving + self.dual_axis_carving + self.bounding
     }
 
     /// Nodes of all kinds.
@@ -36,10 +39,10 @@ impl DualSplitStatistics {
     }
 }
 
-impl<P: Primitive> DualSplitTree<P> {
+impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
     /// Counts the nodes.
-    pub fn dual_split_statistics(&self) -> DualSplitStatistics {
-        let mut statistics = DualSplitStatistics::default();
+    pub fn node_statistics(&self) -> NodeStatistics {
+        let mut statistics = NodeStatistics::default();
         if self.bounds.is_none() {
             return statistics;
         }
@@ -60,6 +63,7 @@ impl<P: Primitive> DualSplitTree<P> {
                     match planes {
                         CarvingPlanes::Single(_) => statistics.single_axis_carving += 1,
                         CarvingPlanes::Dual(..) => statistics.dual_axis_carving += 1,
+                        CarvingPlanes::Bounding(_) => statistics.bounding += 1,
                     }
                     statistics.carving_leaves += usize::from(is_leaf);
                     levels.map(|levels: usize| levels + 1)

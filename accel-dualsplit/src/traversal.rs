@@ -30,7 +30,8 @@ use accel_core::structure::TraversalStack;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::codec::{FirstWord, LEAF_BYTES, NODE_BYTES, NODE_WORDS};
-use crate::tree::DualSplitTree;
+use crate::node_set::NodeSet;
+use crate::tree::PlaneTree;
 
 /// A node put off, and where the ray leaves it.
 #[derive(Clone, Copy)]
@@ -39,8 +40,8 @@ struct PutOff {
     far: f32,
 }
 
-pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
-    tree: &DualSplitTree<P>,
+pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistics>(
+    tree: &PlaneTree<P, N>,
     ray: &PreparedRay,
     query: &mut Q,
     statistics: &mut S,
@@ -61,9 +62,9 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     loop {
         let node = FirstWord(words[position as usize]);
         let mut leaf = None;
-        if node.is_dual_axis() {
-            visit(statistics, NodeKind::Carving);
-            (near, far) = planes.carve_two_axes(node, planes_at(words, position), near, far);
+        if N::CARVES_SEVERAL_AXES && node.is_on_several_axes() {
+            let own = &words[position as usize..];
+            (near, far) = N::carve_several_axes(&planes, node, own, (near, far), statistics);
             if near <= far {
                 if !node.is_leaf() {
                     position += node.offset();
@@ -76,12 +77,12 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
             leaf = Some(node.offset());
         } else {
             let axis = &planes.axes[node.axis_index()];
-            let [exit, entry] = axis.exit_and_entry(planes_at(words, position));
+            let [exit, entry] = axis.exit_and_entry(first_planes(&words[position as usize..]));
             let (nearer_far, farther_near) = (min_or_keep(far, exit), max_or_keep(near, entry));
             if node.is_splitting() {
                 visit(statistics, NodeKind::Splitting);
                 let first = position + node.offset();
-                let second = first + node.first_child_words();
+                let second = first + N::first_child_words(node);
                 let (closer, farther) = if axis.is_negative {
                     (second, first)
                 } else {
@@ -139,23 +140,23 @@ fn visit<S: TraversalStatistics>(statistics: &mut S, kind: NodeKind) {
     statistics.test_planes(2);
 }
 
-/// The planes of the node at `position`.
+/// The first two planes of the node at the start of `words`.
 #[inline(always)]
-fn planes_at(words: &[u32], position: u32) -> [f32; 2] {
-    let node = &words[position as usize..position as usize + NODE_WORDS];
+fn first_planes(words: &[u32]) -> [f32; 2] {
+    let node = &words[..NODE_WORDS];
     [f32::from_bits(node[1]), f32::from_bits(node[2])]
 }
 
 /// What meeting planes takes of a ray.
-struct PlaneTest {
+pub struct PlaneTest {
     /// By [`FirstWord::axis_index`]; one more, so that no index is out of range.
-    axes: [AxisTest; 4],
+    pub(crate) axes: [AxisTest; 4],
     /// By [`BoxPlane::index`](crate::codec::BoxPlane::index); two more.
     sides: [SideTest; 8],
 }
 
 #[derive(Clone, Copy)]
-struct AxisTest {
+pub(crate) struct AxisTest {
     origin: f32,
     near_reciprocal: f32,
     far_reciprocal: f32,
@@ -188,9 +189,17 @@ impl PlaneTest {
         }
     }
 
-    /// What two planes on two axes leave of an interval.
+    /// What a dual-axis node, at the start of `words`, leaves of an interval.
     #[inline(always)]
-    fn carve_two_axes(&self, node: FirstWord, planes: [f32; 2], near: f32, far: f32) -> (f32, f32) {
+    pub(crate) fn carve_two_axes<S: TraversalStatistics>(
+        &self,
+        node: FirstWord,
+        words: &[u32],
+        (near, far): (f32, f32),
+        statistics: &mut S,
+    ) -> (f32, f32) {
+        visit(statistics, NodeKind::Carving);
+        let planes = first_planes(words);
         let [a, b] = node
             .dual_plane_indices()
             .map(|index| &self.sides[index & 7]);
@@ -208,7 +217,7 @@ impl AxisTest {
     /// other. The first plane bounds a box from above, the second one another
     /// (or the same) from below.
     #[inline(always)]
-    fn exit_and_entry(&self, [high, low]: [f32; 2]) -> [f32; 2] {
+    pub(crate) fn exit_and_entry(&self, [high, low]: [f32; 2]) -> [f32; 2] {
         let (exit, entry) = if self.is_negative {
             (low, high)
         } else {
@@ -297,11 +306,13 @@ mod tests {
                 {
                     let ray = PreparedRay::new(&RaySegment::new(origin, direction)).unwrap();
                     let (whole, part) = (ray.slab(&unit), ray.slab(&carved));
+                    let [first, second] = pair.map(|plane| at(plane).to_bits());
+                    let words = [header.encode(3), first, second];
                     let cut = PlaneTest::new(&ray).carve_two_axes(
-                        FirstWord(header.encode(3)),
-                        pair.map(at),
-                        whole.near,
-                        whole.far,
+                        FirstWord(words[0]),
+                        &words,
+                        (whole.near, whole.far),
+                        &mut (),
                     );
                     assert_eq!(
                         cut,

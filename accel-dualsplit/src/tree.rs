@@ -1,16 +1,23 @@
 //! The tree.
 
+use std::marker::PhantomData;
+
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::statistics::{NodeKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
-use crate::codec::{CarvingPlanes, Header, Node};
+use crate::codec::{Header, Node};
+use crate::node_set::{DualSplitNodes, NodeSet};
 
 /// A dual-split tree. Made from a BVH by a
-/// [`DualSplitConverter`](crate::DualSplitConverter); owns its primitives.
+/// [`DualSplitConverter`](crate::DualSplitConverter).
+pub type DualSplitTree<P> = PlaneTree<P, DualSplitNodes>;
+
+/// A tree of nodes that split by two planes or carve by some, of the kinds in `N`;
+/// owns its primitives.
 #[derive(Clone, Debug)]
-pub struct DualSplitTree<P: Primitive> {
+pub struct PlaneTree<P: Primitive, N: NodeSet> {
     pub(crate) words: Vec<u32>,
     pub(crate) stored: StoredPrimitives<P>,
     /// The box of the root, whose node comes first; `None` where there is
@@ -18,9 +25,10 @@ pub struct DualSplitTree<P: Primitive> {
     pub(crate) bounds: Option<Aabb>,
     /// Splitting nodes on the longest path.
     pub(crate) depth: u32,
+    pub(crate) nodes: PhantomData<N>,
 }
 
-impl<P: Primitive> DualSplitTree<P> {
+impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
     /// The nodes as stored: the same for equal input and settings, whatever the
     /// number of threads.
     pub fn node_words(&self) -> &[u32] {
@@ -39,7 +47,7 @@ impl<P: Primitive> DualSplitTree<P> {
     }
 }
 
-impl<P: Primitive> AccelerationStructure for DualSplitTree<P> {
+impl<P: Primitive, N: NodeSet> AccelerationStructure for PlaneTree<P, N> {
     type Primitive = P;
     type Storage = P::Storage;
 
@@ -68,24 +76,17 @@ impl<P: Primitive> AccelerationStructure for DualSplitTree<P> {
     /// A carving node that is a leaf counts as two: it carves, then it is a leaf.
     fn outline(&self) -> TreeOutline {
         let mut outline = TreeOutline::default();
-        let mut pending: Vec<_> = self
-            .bounds
-            .map(|bounds| (0, bounds, None))
-            .into_iter()
-            .collect();
+        let mut pending = Vec::from_iter(self.bounds.map(|bounds| (0, bounds, None)));
         while let Some((position, bounds, parent)) = pending.pop() {
             let node = self.node(position);
-            let (parent, regions) = match node.header {
-                Header::Leaf => (parent, [bounds; 2]),
+            let regions = node.child_regions(bounds);
+            let parent = match node.header {
+                Header::Leaf => parent,
                 Header::Splitting { .. } => {
-                    let kind = NodeKind::Splitting;
-                    let parent = outline.push_inner(kind, bounds, parent);
-                    (Some(parent), node.child_regions(bounds))
+                    Some(outline.push_inner(NodeKind::Splitting, bounds, parent))
                 }
                 Header::Carving { .. } => {
-                    let kind = NodeKind::Carving;
-                    let parent = outline.push_inner(kind, bounds, parent);
-                    (Some(parent), node.child_regions(bounds))
+                    Some(outline.push_inner(NodeKind::Carving, bounds, parent))
                 }
             };
             if node.header.is_leaf() {
@@ -104,26 +105,4 @@ impl<P: Primitive> AccelerationStructure for DualSplitTree<P> {
     }
 }
 
-impl Node {
-    /// What the planes leave of `region`: of a splitting node for each child, of
-    /// a carving node for its one child, twice.
-    pub(crate) fn child_regions(&self, region: Aabb) -> [Aabb; 2] {
-        let [first, second] = self.planes;
-        match self.header {
-            Header::Leaf => [region; 2],
-            Header::Splitting { axis, .. } => [
-                region.with_range(axis, f32::NEG_INFINITY, first),
-                region.with_range(axis, second, f32::INFINITY),
-            ],
-            Header::Carving { planes, .. } => {
-                let carved = match planes {
-                    CarvingPlanes::Single(axis) => region.with_range(axis, second, first),
-                    CarvingPlanes::Dual(a, b) => a.carve(b.carve(region, second), first),
-                };
-                [carved; 2]
-            }
-        }
-    }
-}
-
-impl<P: Primitive, const N: usize> PacketTraversal<N> for DualSplitTree<P> {}
+impl<P: Primitive, N: NodeSet, const L: usize> PacketTraversal<L> for PlaneTree<P, N> {}

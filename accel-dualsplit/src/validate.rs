@@ -4,9 +4,10 @@ use accel_core::{AccelerationStructure, BuildBudget, Primitive, ValidationError}
 
 use crate::codec::{Header, Node};
 use crate::error::WordsError;
-use crate::tree::DualSplitTree;
+use crate::node_set::NodeSet;
+use crate::tree::PlaneTree;
 
-impl<P: Primitive> DualSplitTree<P> {
+impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
     /// Checks everything that hits rely on: the words are those of a tree, every
     /// node's region encloses the primitives below it, every primitive that was
     /// not skipped stands in a leaf, and the recorded depth is right.
@@ -14,30 +15,29 @@ impl<P: Primitive> DualSplitTree<P> {
     /// # Errors
     /// The first [`ValidationError`] found.
     pub fn validate(&self) -> Result<(), ValidationError> {
-        let gate = |id| {
-            self.primitive(id)
-                .map(|primitive| primitive.bounds().gate())
-        };
-        let actual = check_words(&self.words, |_| true).unwrap_or(u32::MAX);
+        let actual = check_words::<N>(&self.words, |_| true).unwrap_or(u32::MAX);
         if actual != self.depth {
             return Err(ValidationError::DepthMismatch {
                 actual,
                 recorded: self.depth,
             });
         }
-        self.outline().validate(self.primitive_count(), gate)
+        self.outline().validate_of(self)
     }
 }
 
-/// Checks words that may be anything: that they are the nodes of one tree, the
-/// root first, whose leaves have numbers that `is_leaf_number` accepts. No words
+/// Checks words that may be anything: that they are the nodes of one tree of the
+/// kinds in `N`, the root first, whose leaves have numbers that `is_leaf_number` accepts. No words
 /// are the empty tree. Takes time and memory in proportion to the words.
 ///
 /// Returns the splitting nodes on the path that has most of them.
 ///
 /// # Errors
 /// The first [`WordsError`] found.
-pub fn check_words(words: &[u32], is_leaf_number: impl Fn(u32) -> bool) -> Result<u32, WordsError> {
+pub fn check_words<N: NodeSet>(
+    words: &[u32],
+    is_leaf_number: impl Fn(u32) -> bool,
+) -> Result<u32, WordsError> {
     if words.is_empty() {
         return Ok(0);
     }
@@ -46,6 +46,10 @@ pub fn check_words(words: &[u32], is_leaf_number: impl Fn(u32) -> bool) -> Resul
     let mut pending = vec![(0, 0)];
     while let Some((position, depth)) = pending.pop() {
         let node = Node::decode(words, position)?;
+        if !N::admits(node.header) {
+            let code = node.header.code();
+            return Err(WordsError::ForeignNode { position, code });
+        }
         let own = position..position + node.header.words();
         if let Some(shared) = is_taken[own.clone()].iter().position(|&taken| taken) {
             let position = position + shared;
@@ -99,7 +103,7 @@ mod tests {
     use rand_pcg::Pcg64Mcg;
 
     use super::*;
-    use crate::{BvhBuilder, DualSplitConverter};
+    use crate::{BvhBuilder, DualSplitConverter, DualSplitNodes, DualSplitTree};
 
     /// Words that pass the check are those of some tree: traced, they give an
     /// answer after at most one visit of each node.
@@ -111,7 +115,10 @@ mod tests {
         let sound = tree.words.clone();
         let leaves = leaf_numbers(&tree);
         let is_leaf_number = |leaf| leaves.contains(&leaf);
-        assert_eq!(check_words(&sound, is_leaf_number), Ok(tree.depth));
+        assert_eq!(
+            check_words::<DualSplitNodes>(&sound, is_leaf_number),
+            Ok(tree.depth)
+        );
         let rays = rays::mixed(&scene, 4, 64);
         let mut random = Pcg64Mcg::seed_from_u64(5);
         let (mut refused, mut traced) = (0, 0);
@@ -125,7 +132,7 @@ mod tests {
                     tree.words[word] ^= 1 << random.random_range(0..32);
                 }
             }
-            if check_words(&tree.words, is_leaf_number).is_err() {
+            if check_words::<DualSplitNodes>(&tree.words, is_leaf_number).is_err() {
                 refused += 1;
                 continue;
             }

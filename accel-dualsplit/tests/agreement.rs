@@ -15,8 +15,8 @@ use proptest::prelude::*;
 /// Enough for a source that shares its conversion with one that is checked in
 /// full.
 const PART: Effort = Effort {
-    seeds: 2,
-    triangles: 500,
+    seeds: 1,
+    triangles: 400,
     rays: 150,
     full_size_rays: 0,
 };
@@ -60,13 +60,13 @@ fn bvh_builder(object_split: ObjectSplit) -> BvhBuilder {
 #[test]
 fn both_partitionings_agree_with_brute_force_on_every_family() {
     let effort = Effort {
-        seeds: 4,
+        seeds: 2,
         ..Effort::default()
     };
     let builder = bvh_builder(ObjectSplit::FullSweep);
     let checked = check(&effort, |triangles| builder.build(triangles));
     assert!(checked.families >= 40, "{checked:?}");
-    assert!(checked.hits > 20_000, "{checked:?}");
+    assert!(checked.hits > 10_000, "{checked:?}");
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn trees_of_binned_sources_agree_on_every_family() {
         ..bvh_builder(ObjectSplit::default())
     };
     let checked = check(&PART, |triangles| builder.build(triangles));
-    assert!(checked.hits > 5_000, "{checked:?}");
+    assert!(checked.hits > 2_000, "{checked:?}");
 }
 
 #[test]
@@ -89,12 +89,12 @@ fn trees_of_sources_with_duplicates_agree_on_every_family() {
     let checked = check(&PART, |triangles| {
         Ok::<_, accel_dualsplit::BuildError>(builder.build_with(triangles, &())?.0)
     });
-    assert!(checked.hits > 5_000, "{checked:?}");
+    assert!(checked.hits > 2_000, "{checked:?}");
 }
 
 #[test]
 fn spheres_agree_with_brute_force() {
-    for seed in 0..10 {
+    for seed in 0..5 {
         let boxes = families::find("soup-mixed-sizes").unwrap().scene(seed, 400);
         let spheres: Vec<Sphere> = boxes
             .iter()
@@ -119,7 +119,7 @@ fn spheres_agree_with_brute_force() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn any_scene_rays_and_costs_agree(

@@ -1,13 +1,15 @@
-//! Which leaves a query visits whose interval does not shrink: *identical* trees
-//! those of their BVH, no more and no fewer; *similar* trees at least these.
+//! Which leaves a query visits whose interval does not shrink: *identical* trees,
+//! BIH and H-tree those of their BVH, no more and no fewer; *similar* trees at least
+//! these.
 
 use std::cell::RefCell;
 
 use accel_core::testing::{families, rays};
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
-    Aabb, AccelerationStructure, BvhBuilder, DualSplitConverter, Hit, Intersection, LeafOrdered,
-    LeafRule, ObjectSplit, Partitioning, PreparedRay, Primitive, RaySegment, Triangle,
+    Aabb, AccelerationStructure, BihConverter, BvhBuilder, DualSplitConverter, HTreeConverter, Hit,
+    Intersection, LeafOrdered, LeafRule, ObjectSplit, Partitioning, PreparedRay, Primitive,
+    RaySegment, Triangle,
 };
 
 thread_local! {
@@ -83,10 +85,14 @@ fn identical_trees_visit_the_leaves_of_their_bvh_and_similar_ones_at_least_these
             };
             let identical = convert(Partitioning::Identical);
             let similar = convert(Partitioning::Similar);
+            let bih = BihConverter::default().convert(&bvh).unwrap();
+            let h_tree = HTreeConverter::default().convert(&bvh).unwrap();
             for ray in rays::mixed(&scene, seed, 400) {
                 let expected = tested(&bvh, &ray);
                 let name = family.name;
                 assert_eq!(tested(&identical, &ray), expected, "{name} {seed} {ray:?}");
+                assert_eq!(tested(&bih, &ray), expected, "{name} {seed} {ray:?}");
+                assert_eq!(tested(&h_tree, &ray), expected, "{name} {seed} {ray:?}");
                 let superset = tested(&similar, &ray);
                 let mut rest = superset.iter();
                 let is_within = expected.iter().all(|id| rest.any(|other| other == id));

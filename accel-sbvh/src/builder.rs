@@ -36,6 +36,9 @@ pub struct SbvhBuilder {
     pub object_split: ObjectSplit,
     /// Bins per axis in the search for spatial splits, 2 to 65536.
     pub spatial_bins: usize,
+    /// Nodes of few references have no more bins than so many for each, at least
+    /// 1; `usize::MAX` makes it `spatial_bins` in every node, as in the paper.
+    pub bins_per_reference: usize,
     /// How references are clipped in that search.
     pub clipping: CandidateClipping,
     /// Whether a reference that a spatial split's plane cuts may go to one side
@@ -64,6 +67,7 @@ impl Default for SbvhBuilder {
         Self {
             object_split: ObjectSplit::FullSweep,
             spatial_bins: 256,
+            bins_per_reference: 8,
             clipping: CandidateClipping::default(),
             unsplitting: true,
             alpha: 1e-5,
@@ -131,6 +135,9 @@ impl SbvhBuilder {
         if !(2..=1 << 16).contains(&self.spatial_bins) {
             return reject("spatial_bins", self.spatial_bins.to_string(), "2 to 65536");
         }
+        if self.bins_per_reference == 0 {
+            return reject("bins_per_reference", "0".into(), "1 or more");
+        }
         // The negated range rejects NaN as well.
         if !(0.0..=1.0).contains(&self.alpha) {
             return reject("alpha", self.alpha.to_string(), "a number from 0 to 1");
@@ -188,6 +195,7 @@ impl SbvhBuilder {
                 primitives,
                 clipping: self.clipping,
                 bins: self.spatial_bins,
+                bins_per_reference: self.bins_per_reference,
             },
             divisor: Divisor {
                 primitives,

@@ -49,6 +49,7 @@ fn check(effort: &Effort, builders: &[SbvhBuilder]) -> Checked {
 fn the_paper_s_settings_agree_with_brute_force_on_every_family() {
     let builders = [SbvhBuilder {
         leaf_rule: LeafRule::StopAt(8),
+        bins_per_reference: usize::MAX,
         ..base()
     }];
     let effort = Effort {
@@ -174,6 +175,7 @@ proptest! {
     fn any_scene_and_rays_agree(
         (scene, rays) in strategy::any_case(60, 30),
         spatial_bins in 2_usize..=300,
+        bins_per_reference in 1_usize..=100,
         leaf_size in 1_usize..10,
         is_swept: bool,
         unsplitting: bool,
@@ -184,6 +186,7 @@ proptest! {
         let builder = SbvhBuilder {
             object_split: if is_swept { ObjectSplit::FullSweep } else { ObjectSplit::default() },
             spatial_bins,
+            bins_per_reference,
             clipping: if clips_boxes { CandidateClipping::Boxes } else { CandidateClipping::Primitives },
             unsplitting,
             alpha,

@@ -186,6 +186,13 @@ fn settings_out_of_range_are_named() {
             },
         ),
         (
+            "bins_per_reference",
+            SbvhBuilder {
+                bins_per_reference: 0,
+                ..default
+            },
+        ),
+        (
             "alpha",
             SbvhBuilder {
                 alpha: -1e-9,

@@ -20,12 +20,14 @@ pub struct Timings {
 
 /// Traces every ray set through every structure, `rounds` times: round by round,
 /// set by set, structure by structure, so that what disturbs the machine
-/// disturbs all alike. Returns timings by structure, then by ray set. Runs on
-/// the current thread pool; `tick` is called after every measurement.
+/// disturbs all alike. Structures and sets, by their positions, that are not
+/// `is_timed` are left out. Returns timings by structure, then by ray set. Runs
+/// on the current thread pool; `tick` is called after every measurement.
 pub fn time_rounds(
     structures: &[&dyn DynStructure],
     sets: &[RaySet],
     rounds: usize,
+    is_timed: impl Fn(usize, usize) -> bool,
     mut tick: impl FnMut(),
 ) -> Vec<Vec<Timings>> {
     let mut timings = vec![vec![Timings::default(); sets.len()]; structures.len()];
@@ -44,6 +46,10 @@ pub fn time_rounds(
             for turn in 0..structures.len() {
                 // Another structure goes first in each round.
                 let turn = (turn + round) % structures.len();
+                if !is_timed(turn, position) {
+                    tick();
+                    continue;
+                }
                 let start = Instant::now();
                 trace(structures[turn], set.kind.question(), &set.rays);
                 let seconds = start.elapsed().as_secs_f64();

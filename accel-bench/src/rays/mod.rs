@@ -6,6 +6,7 @@ mod primary;
 mod random;
 mod sampling;
 mod shadow;
+mod tiles;
 
 use std::fmt;
 use std::str::FromStr;
@@ -74,6 +75,11 @@ impl RayKind {
         Self::Random,
     ];
 
+    /// Whether neighbours in the set go nearly the same way, as packets want.
+    pub fn is_coherent(self) -> bool {
+        matches!(self, Self::Primary | Self::Shadow | Self::Transparent)
+    }
+
     /// The name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -113,6 +119,18 @@ impl FromStr for RayKind {
                 let names = Self::ALL.map(Self::name).join(", ");
                 format!("there are no rays named `{name}`; there are {names}")
             })
+    }
+}
+
+impl RaySet {
+    /// The same rays in tiles of pixels, if there is one for every pixel of a
+    /// picture `width` pixels across. Each structure is asked the same.
+    #[must_use]
+    pub fn in_tiles(mut self, width: u32) -> Self {
+        if matches!(self.kind, RayKind::Primary | RayKind::Transparent) {
+            self.rays = tiles::in_tiles(&self.rays, width);
+        }
+        self
     }
 }
 

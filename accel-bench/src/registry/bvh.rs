@@ -1,9 +1,9 @@
 //! The rows of accel-bvh.
 
-use accel_bvh::{BvhBuilder, ObjectSplit};
+use accel_bvh::{Bvh, BvhBuilder, CompactBvh, ObjectSplit};
 use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
 
-use super::{Row, Structure};
+use super::Row;
 
 pub(super) static ROWS: &[Row] = &[
     Row {
@@ -13,7 +13,12 @@ pub(super) static ROWS: &[Row] = &[
         settings: "full sweep, SahUpTo(8), C_t = C_i = 1",
         heuristic: SurfaceAreaHeuristic::default,
         build: |triangles, invalid, observer| {
-            build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)
+            Ok(Box::new(build_bvh(
+                ObjectSplit::FullSweep,
+                triangles,
+                invalid,
+                observer,
+            )?))
         },
     },
     Row {
@@ -23,26 +28,37 @@ pub(super) static ROWS: &[Row] = &[
         settings: "32 bins, SahUpTo(8), C_t = C_i = 1",
         heuristic: SurfaceAreaHeuristic::default,
         build: |triangles, invalid, observer| {
-            build_bvh(
+            Ok(Box::new(build_bvh(
                 ObjectSplit::Binned { bins: 32 },
                 triangles,
                 invalid,
                 observer,
-            )
+            )?))
+        },
+    },
+    Row {
+        name: "compact-bvh",
+        is_headline: false,
+        about: "the BVH of bvh-sweep with shared planes, 32-byte nodes",
+        settings: "full sweep, SahUpTo(8), C_t = C_i = 1",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let bvh = build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
+            Ok(Box::new(CompactBvh::from_bvh(&bvh)?))
         },
     },
 ];
 
-fn build_bvh(
+pub(super) fn build_bvh(
     object_split: ObjectSplit,
     triangles: &[Triangle],
     invalid_primitives: InvalidPrimitives,
     observer: &dyn BuildObserver,
-) -> Result<Structure, BuildError> {
+) -> Result<Bvh<Triangle>, BuildError> {
     let builder = BvhBuilder {
         object_split,
         invalid_primitives,
         ..BvhBuilder::default()
     };
-    Ok(Box::new(builder.build_with(triangles, observer)?))
+    builder.build_with(triangles, observer)
 }

@@ -1,9 +1,10 @@
 //! The rows of accel-dualsplit, converted from the tree of `bvh-sweep`.
 
-use accel_bvh::{BvhBuilder, ObjectSplit};
+use accel_bvh::ObjectSplit;
 use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
-use accel_dualsplit::{DualSplitConverter, Partitioning};
+use accel_dualsplit::{BihConverter, DualSplitConverter, HTreeConverter, Partitioning};
 
+use super::bvh::build_bvh;
 use super::{Row, Structure};
 
 pub(super) static ROWS: &[Row] = &[
@@ -27,23 +28,40 @@ pub(super) static ROWS: &[Row] = &[
             convert_bvh(Partitioning::Similar, triangles, invalid, observer)
         },
     },
+    Row {
+        name: "bih",
+        is_headline: false,
+        about: "bounding interval hierarchy with the boxes of bvh-sweep, 12/4-byte nodes",
+        settings: "full sweep, SahUpTo(8), C_t = C_i = 1; sigma 0.3",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let bvh = build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
+            Ok(Box::new(BihConverter::default().convert(&bvh)?))
+        },
+    },
+    Row {
+        name: "htree",
+        is_headline: false,
+        about: "H-tree with the boxes of bvh-sweep, 12/20/28/4-byte nodes",
+        settings: "full sweep, SahUpTo(8), C_t = C_i = 1; sigma 0.3, 0.5 and 0.7",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let bvh = build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
+            Ok(Box::new(HTreeConverter::default().convert(&bvh)?))
+        },
+    },
 ];
 
 fn convert_bvh(
     partitioning: Partitioning,
     triangles: &[Triangle],
-    invalid_primitives: InvalidPrimitives,
+    invalid: InvalidPrimitives,
     observer: &dyn BuildObserver,
 ) -> Result<Structure, BuildError> {
-    let builder = BvhBuilder {
-        object_split: ObjectSplit::FullSweep,
-        invalid_primitives,
-        ..BvhBuilder::default()
-    };
     let converter = DualSplitConverter {
         partitioning,
         ..DualSplitConverter::default()
     };
-    let bvh = builder.build_with(triangles, observer)?;
+    let bvh = build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
     Ok(Box::new(converter.convert(&bvh)?))
 }

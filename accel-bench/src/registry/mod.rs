@@ -3,6 +3,8 @@
 mod bsp;
 mod bvh;
 mod dualsplit;
+mod kdtree;
+mod packets;
 mod sbvh;
 
 use accel_core::layout::TriangleBlocks;
@@ -34,6 +36,11 @@ type BuildFunction =
     fn(&[Triangle], InvalidPrimitives, &dyn BuildObserver) -> Result<Structure, BuildError>;
 
 impl Row {
+    /// Whether rays are traced in packets, which pay on coherent rays.
+    pub fn is_packet(&self) -> bool {
+        self.name.ends_with("-packet")
+    }
+
     /// Builds the structure over `triangles`.
     ///
     /// # Errors
@@ -60,7 +67,9 @@ static BRUTE_FORCE: &[Row] = &[Row {
 /// The rows of every crate, in the order of tables.
 static ROWS: &[&[Row]] = &[
     bvh::ROWS,
+    packets::ROWS,
     sbvh::ROWS,
+    kdtree::ROWS,
     bsp::ROWS,
     dualsplit::ROWS,
     BRUTE_FORCE,

@@ -102,7 +102,8 @@ pub struct RayRow {
     /// What a reader must know of their length.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub note: Option<String>,
-    /// Speed; none where hits disagree with brute force's.
+    /// Speed; none where hits disagree with brute force's, and for packets of
+    /// rays that are not coherent.
     pub mrays_per_second: Option<Spread>,
     /// Nodes read.
     pub nodes_per_ray: MeanMax,

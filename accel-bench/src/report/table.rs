@@ -175,9 +175,16 @@ fn ray_table(cells: &[&Cell], style: TableStyle) -> Table {
             .filter_map(|cell| cell.rays[kind].mrays_per_second)
             .map(|spread| spread.median)
             .fold(0.0, f64::max);
-        for (position, cell) in cells.iter().enumerate() {
+        let mut name = cells
+            .first()
+            .map_or("", |cell| cell.rays[kind].kind.as_str());
+        for cell in cells {
             let row = &cell.rays[kind];
-            let name = if position == 0 { row.kind.as_str() } else { "" };
+            let is_untimed = row.mrays_per_second.is_none() && row.count > 0;
+            if is_untimed && row.verified.disagreements == 0 {
+                continue;
+            }
+            let name = std::mem::take(&mut name);
             table.add_row([
                 TableCell::new(name),
                 TableCell::new(&cell.structure),

@@ -64,3 +64,25 @@ impl Default for BuildBudget {
 pub fn median_depth(references: usize) -> u32 {
     2 * references.max(1).ilog2() + 16
 }
+
+/// Divides what is left of a budget among two subtrees of these sizes, in
+/// proportion: so that it is never exceeded, and what each may take does not
+/// depend on which is built first.
+pub fn share_by_size(left: usize, sizes: [usize; 2]) -> [usize; 2] {
+    let total = (sizes[0] as u128 + sizes[1] as u128).max(1);
+    // A share is at most `left`, which fits.
+    sizes.map(|size| (left as u128 * size as u128 / total) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_proportional_and_never_more_than_what_is_left() {
+        assert_eq!(share_by_size(10, [1, 4]), [2, 8]);
+        assert_eq!(share_by_size(5, [1, 1]), [2, 2]);
+        assert_eq!(share_by_size(7, [0, 0]), [0, 0]);
+        assert_eq!(share_by_size(usize::MAX, [usize::MAX, 0]), [usize::MAX, 0]);
+    }
+}

@@ -6,7 +6,7 @@ mod parallel;
 mod recursion;
 mod tree;
 
-pub use budget::{BuildBudget, median_depth};
+pub use budget::{BuildBudget, median_depth, share_by_size};
 pub use observer::BuildObserver;
 pub use parallel::{join, map_each};
 pub use recursion::{Division, TopDown, build_top_down};

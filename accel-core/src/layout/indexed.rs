@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
+use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive, offer_primitive_packet};
 use crate::primitive::Primitive;
 use crate::query::Query;
-use crate::ray::PreparedRay;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 use crate::statistics::TraversalStatistics;
 
 /// References into one array of primitives in their original order: for large
@@ -47,6 +48,25 @@ impl<P: Primitive> LeafStorage<P> for Indexed<P> {
             offer_primitive(&self.primitives[id as usize], id, ray, query)?;
         }
         ControlFlow::Continue(())
+    }
+
+    #[inline(always)]
+    fn intersect_leaf_packet<L: Lanes, Q: Query, S: TraversalStatistics>(
+        &self,
+        leaf: u32,
+        mut mask: u32,
+        rays: &mut PacketVector<'_, L>,
+        queries: &mut [Q],
+        statistics: &mut S,
+    ) {
+        for id in self.references.leaf(leaf) {
+            let primitive = &self.primitives[id as usize];
+            statistics.test_primitives(mask.count_ones());
+            mask = offer_primitive_packet(primitive, id, mask, rays, queries);
+            if mask == 0 {
+                return;
+            }
+        }
     }
 
     fn leaf_ids(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {

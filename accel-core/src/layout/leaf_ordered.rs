@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive};
+use super::{LeafStorage, ReferenceList, StorageBytes, offer_primitive, offer_primitive_packet};
 use crate::primitive::Primitive;
 use crate::query::Query;
-use crate::ray::PreparedRay;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 use crate::statistics::TraversalStatistics;
 
 /// One copy of a primitive per reference, in leaf order: a leaf is read in one
@@ -53,6 +54,25 @@ impl<P: Primitive> LeafStorage<P> for LeafOrdered<P> {
             offer_primitive(primitive, id, ray, query)?;
         }
         ControlFlow::Continue(())
+    }
+
+    #[inline(always)]
+    fn intersect_leaf_packet<L: Lanes, Q: Query, S: TraversalStatistics>(
+        &self,
+        leaf: u32,
+        mut mask: u32,
+        rays: &mut PacketVector<'_, L>,
+        queries: &mut [Q],
+        statistics: &mut S,
+    ) {
+        let copies = &self.copies[leaf as usize..];
+        for (id, primitive) in self.references.leaf(leaf).zip(copies) {
+            statistics.test_primitives(mask.count_ones());
+            mask = offer_primitive_packet(primitive, id, mask, rays, queries);
+            if mask == 0 {
+                return;
+            }
+        }
     }
 
     fn leaf_ids(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {

@@ -11,12 +11,14 @@ use std::ops::ControlFlow;
 
 use crate::primitive::Primitive;
 use crate::query::Query;
-use crate::ray::PreparedRay;
+use crate::ray::packet::lanes_of;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 use crate::statistics::TraversalStatistics;
 
 pub use indexed::Indexed;
 pub use leaf_ordered::LeafOrdered;
-pub use offer::{offer_intersection, offer_primitive};
+pub use offer::{offer_intersection, offer_primitive, offer_primitive_packet};
 pub use reference_list::{MAX_PRIMITIVES, ReferenceList};
 pub use stored_primitives::StoredPrimitives;
 pub use triangle_blocks::TriangleBlocks;
@@ -53,6 +55,32 @@ pub trait LeafStorage<P: Primitive>: Clone + Send + Sync + Sized {
         query: &mut Q,
         statistics: &mut S,
     ) -> ControlFlow<()>;
+
+    /// Tests the primitives of leaf `leaf` for the rays of a vector that are in
+    /// `mask` and offers their hits to the queries of the same lanes. Afterwards
+    /// `rays.t_max` is that of the queries; lanes whose query broke are retired.
+    ///
+    /// The default takes ray by ray. An override must be `#[inline(always)]`, so
+    /// that it uses the vectors of the machine.
+    #[inline(always)]
+    fn intersect_leaf_packet<L: Lanes, Q: Query, S: TraversalStatistics>(
+        &self,
+        leaf: u32,
+        mask: u32,
+        rays: &mut PacketVector<'_, L>,
+        queries: &mut [Q],
+        statistics: &mut S,
+    ) {
+        for lane in lanes_of(mask) {
+            let (Some(ray), query) = (rays.ray(lane), &mut queries[lane]) else {
+                continue;
+            };
+            match self.intersect_leaf(leaf, ray, query, statistics) {
+                ControlFlow::Continue(()) => rays.shorten(lane, query.t_max()),
+                ControlFlow::Break(()) => rays.retire(lane),
+            }
+        }
+    }
 
     /// The ids in leaf `leaf`, in order.
     fn leaf_ids(&self, leaf: u32) -> impl Iterator<Item = u32> + '_;

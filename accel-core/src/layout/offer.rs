@@ -4,9 +4,11 @@
 use std::ops::ControlFlow;
 
 use crate::geometry::Aabb;
-use crate::primitive::{Intersection, Primitive};
+use crate::primitive::{Intersection, LaneIntersections, Primitive};
 use crate::query::{Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::packet::lanes_of;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 
 /// Intersects `primitive` and offers the hit, if there is one: the body of every
 /// leaf's loop.
@@ -21,6 +23,60 @@ pub fn offer_primitive<P: Primitive, Q: Query>(
         Some(intersection) => offer_intersection(intersection, id, &primitive.bounds(), ray, query),
         None => ControlFlow::Continue(()),
     }
+}
+
+/// As [`offer_primitive`], for the rays of a vector that are in `mask`; yields
+/// those of them whose queries go on.
+#[inline(always)]
+pub fn offer_primitive_packet<P: Primitive, L: Lanes, Q: Query>(
+    primitive: &P,
+    id: u32,
+    mask: u32,
+    rays: &mut PacketVector<'_, L>,
+    queries: &mut [Q],
+) -> u32 {
+    let found = primitive.intersect_packet(rays, mask);
+    if found.mask == 0 {
+        return mask;
+    }
+    let (t, hits) = gated(&found, &primitive.bounds(), rays);
+    let mut answered = 0;
+    for lane in lanes_of(hits) {
+        let hit = Hit {
+            t: t.lanes()[lane],
+            u: found.u.lanes()[lane],
+            v: found.v.lanes()[lane],
+            id,
+        };
+        match queries[lane].offer(&hit) {
+            ControlFlow::Continue(()) => rays.shorten(lane, queries[lane].t_max()),
+            ControlFlow::Break(()) => {
+                rays.retire(lane);
+                answered |= 1 << lane;
+            }
+        }
+    }
+    mask & !answered
+}
+
+/// The steps of [`offer_intersection`], lane by lane: the clamped `t`, and which
+/// lanes are hits.
+#[inline(always)]
+fn gated<L: Lanes>(
+    found: &LaneIntersections<L>,
+    bounds: &Aabb,
+    rays: &PacketVector<'_, L>,
+) -> (L, u32) {
+    let (near, far) = rays.lanes.whole_slab(rays.shared, &bounds.gate());
+    let finite = finite_mask(found.t) & finite_mask(found.u) & finite_mask(found.v);
+    let t = found.t.max_or_keep(near).min_or_keep(far) + L::splat(0.0);
+    let within = rays.lanes.t_min.le_mask(t) & t.le_mask(*rays.t_max) & finite_mask(t);
+    (t, found.mask & finite & near.le_mask(far) & within)
+}
+
+#[inline(always)]
+fn finite_mask<L: Lanes>(value: L) -> u32 {
+    value.lt_mask(L::splat(f32::INFINITY)) & L::splat(f32::NEG_INFINITY).lt_mask(value)
 }
 
 /// Offers `intersection` of the primitive `id`, whose box is `bounds`, to

@@ -12,7 +12,9 @@ use glam::Vec3;
 use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, Side};
 use crate::layout::LeafStorage;
 use crate::query::Hit;
-use crate::ray::PreparedRay;
+use crate::ray::packet::lanes_of;
+use crate::ray::{PacketVector, PreparedRay};
+use crate::simd::Lanes;
 
 pub use mesh::{MeshError, triangles_of_mesh};
 pub use quad::Quad;
@@ -29,6 +31,68 @@ pub struct Intersection {
     pub u: f32,
     /// Second surface coordinate.
     pub v: f32,
+}
+
+/// Where the rays of a vector meet a primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneIntersections<L> {
+    /// The rays that meet it, a bit per lane, the first lane lowest.
+    pub mask: u32,
+    /// See [`Intersection::t`]; of no meaning outside `mask`.
+    pub t: L,
+    /// See [`Intersection::u`].
+    pub u: L,
+    /// See [`Intersection::v`].
+    pub v: L,
+}
+
+impl<L: Lanes> LaneIntersections<L> {
+    /// No ray meets it.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let zero = L::splat(0.0);
+        Self {
+            mask: 0,
+            t: zero,
+            u: zero,
+            v: zero,
+        }
+    }
+
+    /// That of one ray.
+    #[inline]
+    pub fn get(&self, lane: usize) -> Option<Intersection> {
+        (self.mask >> lane & 1 == 1).then(|| Intersection {
+            t: self.t.lanes()[lane],
+            u: self.u.lanes()[lane],
+            v: self.v.lanes()[lane],
+        })
+    }
+
+    #[inline]
+    fn set(&mut self, lane: usize, intersection: Intersection) {
+        self.mask |= 1 << lane;
+        self.t.lanes_mut()[lane] = intersection.t;
+        self.u.lanes_mut()[lane] = intersection.u;
+        self.v.lanes_mut()[lane] = intersection.v;
+    }
+}
+
+/// What [`Primitive::intersect_packet`] does by default.
+#[inline(always)]
+pub(crate) fn intersect_one_by_one<P: Primitive, L: Lanes>(
+    primitive: &P,
+    rays: &PacketVector<'_, L>,
+    mask: u32,
+) -> LaneIntersections<L> {
+    let mut found = LaneIntersections::none();
+    for lane in lanes_of(mask) {
+        let intersection = rays.ray(lane).and_then(|ray| primitive.intersect(ray));
+        if let Some(intersection) = intersection {
+            found.set(lane, intersection);
+        }
+    }
+    found
 }
 
 /// Anything that a ray can hit: implement it to build every structure over a
@@ -52,6 +116,20 @@ pub trait Primitive: Clone + Send + Sync {
     /// The first intersection with `t >= ray.t_min()`, if there is any. A
     /// result with a NaN or infinite `t`, `u` or `v` counts as a miss.
     fn intersect(&self, ray: &PreparedRay) -> Option<Intersection>;
+
+    /// [`intersect`](Self::intersect) for the rays of a vector that are in
+    /// `mask`, with the same results bit for bit.
+    ///
+    /// The default takes ray by ray. An override makes packets fast; it must be
+    /// `#[inline(always)]`, so that it uses the vectors of the machine.
+    #[inline(always)]
+    fn intersect_packet<L: Lanes>(
+        &self,
+        rays: &PacketVector<'_, L>,
+        mask: u32,
+    ) -> LaneIntersections<L> {
+        intersect_one_by_one(self, rays, mask)
+    }
 
     /// The unit vector orthogonal to the surface at `point`, where `hit` lies,
     /// towards its front; zero where there is none.

@@ -2,12 +2,15 @@
 
 use glam::Vec3;
 
-use super::{Clip, Intersection, Polygonal, Primitive, watertight};
+use super::{
+    Clip, Intersection, LaneIntersections, Polygonal, Primitive, intersect_one_by_one, watertight,
+};
 use crate::geometry::{Aabb, Axis, DAabb, GrowingBox, Plane, rounding};
 use crate::layout::LeafOrdered;
 use crate::query::Hit;
-use crate::ray::PreparedRay;
+use crate::ray::{PacketVector, PreparedRay};
 use crate::reference::{chop_polygon, clip_polygon, clip_polygon_corners};
+use crate::simd::Lanes;
 
 /// A triangle with corners `a`, `b`, `c`. The point of a hit with barycentric
 /// coordinates `u`, `v` is `(1 - u - v) a + u b + v c`.
@@ -67,6 +70,19 @@ impl Primitive for Triangle {
     #[inline]
     fn intersect(&self, ray: &PreparedRay) -> Option<Intersection> {
         watertight::intersect(ray, self.vertices())
+    }
+
+    #[inline(always)]
+    fn intersect_packet<L: Lanes>(
+        &self,
+        rays: &PacketVector<'_, L>,
+        mask: u32,
+    ) -> LaneIntersections<L> {
+        let vertices = self.vertices();
+        match watertight::intersect_lanes(rays.lanes, rays.shared, mask, vertices) {
+            Some(found) => found,
+            None => intersect_one_by_one(self, rays, mask),
+        }
     }
 
     fn geometric_normal(&self, _: &Hit, _: Vec3) -> Vec3 {

@@ -16,8 +16,11 @@
 
 use glam::Vec3;
 
-use super::Intersection;
+use super::{Intersection, LaneIntersections};
+use crate::geometry::Axis;
+use crate::ray::packet::{RayLanes, SharedFacts};
 use crate::ray::{PreparedRay, Shear};
+use crate::simd::{Doubles, Lanes};
 
 /// Where `ray` meets the triangle, edges and corners included.
 #[inline]
@@ -54,7 +57,7 @@ impl Sheared {
 
 /// Twice the signed areas of the triangles that the ray makes with the edges
 /// opposite to the first, second and third vertex.
-#[inline]
+#[inline(always)]
 fn edge_functions<T>([a, b, c]: [(T, T); 3]) -> [T; 3]
 where
     T: Copy + std::ops::Mul<Output = T> + std::ops::Sub<Output = T>,
@@ -156,10 +159,103 @@ impl LaneTest {
     }
 }
 
+/// [`intersect`] for the rays of a vector that are in `mask`: the same
+/// operations in the same order, lane by lane, so the same bits. None where rays
+/// differ in their main axis.
+#[inline(always)]
+pub(crate) fn intersect_lanes<L: Lanes>(
+    rays: &RayLanes<L>,
+    shared: &SharedFacts,
+    mask: u32,
+    vertices: [Vec3; 3],
+) -> Option<LaneIntersections<L>> {
+    match shared.shear_axis? {
+        Axis::X => Some(intersect_along::<L, 0>(rays, mask, vertices)),
+        Axis::Y => Some(intersect_along::<L, 1>(rays, mask, vertices)),
+        Axis::Z => Some(intersect_along::<L, 2>(rays, mask, vertices)),
+    }
+}
+
+#[inline(always)]
+fn intersect_along<L: Lanes, const MAIN: usize>(
+    rays: &RayLanes<L>,
+    mask: u32,
+    [a, b, c]: [Vec3; 3],
+) -> LaneIntersections<L> {
+    let vertices = [
+        sheared_lanes::<L, MAIN>(rays, a),
+        sheared_lanes::<L, MAIN>(rays, b),
+        sheared_lanes::<L, MAIN>(rays, c),
+    ];
+    let mask = mask & !both_signs_mask(edge_functions(vertices));
+    if mask == 0 {
+        return LaneIntersections::none();
+    }
+    let along = [
+        L::splat(a[MAIN]) - rays.origin[MAIN],
+        L::splat(b[MAIN]) - rays.origin[MAIN],
+        L::splat(c[MAIN]) - rays.origin[MAIN],
+    ];
+    finish_lanes(vertices, along, rays.along, mask)
+}
+
+/// [`has_both_signs`] lane by lane.
+#[inline(always)]
+fn both_signs_mask<L: Lanes>([u, v, w]: [L; 3]) -> u32 {
+    // An edge function that is NaN has no sign.
+    let zero = L::splat(0.0);
+    let smallest = zero.min_or_keep(u).min_or_keep(v).min_or_keep(w);
+    let largest = zero.max_or_keep(u).max_or_keep(v).max_or_keep(w);
+    smallest.lt_mask(zero) & zero.lt_mask(largest)
+}
+
+/// [`finish`] lane by lane.
+#[inline(always)]
+fn finish_lanes<L: Lanes>(
+    [a, b, c]: [(L, L); 3],
+    [a_along, b_along, c_along]: [L; 3],
+    along: L,
+    mask: u32,
+) -> LaneIntersections<L> {
+    let [u, v, w] = edge_functions([
+        (a.0.to_doubles(), a.1.to_doubles()),
+        (b.0.to_doubles(), b.1.to_doubles()),
+        (c.0.to_doubles(), c.1.to_doubles()),
+    ]);
+    let zero = L::Doubles::splat(0.0);
+    let positive = zero.le_mask(u) & zero.le_mask(v) & zero.le_mask(w);
+    let negative = u.le_mask(zero) & v.le_mask(zero) & w.le_mask(zero);
+    let determinant = u + v + w;
+    let is_zero = determinant.le_mask(zero) & zero.le_mask(determinant);
+    let along = along.to_doubles();
+    let reciprocal = L::Doubles::splat(1.0) / (determinant * along);
+    let t = u * a_along.to_doubles() + v * b_along.to_doubles() + w * c_along.to_doubles();
+    LaneIntersections {
+        mask: mask & (positive | negative) & !is_zero,
+        t: L::from_doubles(t * reciprocal),
+        u: L::from_doubles(v * along * reciprocal),
+        v: L::from_doubles(w * along * reciprocal),
+    }
+}
+
+/// What [`Sheared::new`] computes, across the main axis.
+#[inline(always)]
+fn sheared_lanes<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertex: Vec3) -> (L, L) {
+    let (x, y) = ((MAIN + 1) % 3, (MAIN + 2) % 3);
+    let along = L::splat(vertex[MAIN]) - rays.origin[MAIN];
+    (
+        (L::splat(vertex[x]) - rays.origin[x]) - rays.shear[0] * along,
+        (L::splat(vertex[y]) - rays.origin[y]) - rays.shear[1] * along,
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ray::RaySegment;
+    use crate::Triangle;
+    use crate::ray::{RayPacket, RaySegment};
+    use crate::simd::F32x4;
+    use crate::testing::{families, rays};
 
     fn hit(origin: [f32; 3], direction: [f32; 3], vertices: [[f32; 3]; 3]) -> Option<Intersection> {
         let ray = PreparedRay::new(&RaySegment::new(origin, direction))?;
@@ -228,5 +324,29 @@ mod tests {
         }
         vertices[1][0][5] = f32::NAN;
         assert_eq!(test.candidates(&vertices) & 0b1101_1111, 1);
+    }
+
+    #[test]
+    fn lanes_meet_triangles_as_single_rays_do_bit_for_bit() {
+        let scene = families::find("axis-grid").unwrap().scene(1, 300);
+        let rays: Vec<_> = rays::mixed(&scene, 7, 400)
+            .iter()
+            .map(PreparedRay::new)
+            .collect();
+        let mut met = 0;
+        for rays in rays.chunks(4) {
+            let packet = RayPacket::<F32x4, 1>::new(rays, |_| 1.0);
+            for vertices in scene.iter().map(Triangle::vertices) {
+                let found = intersect_lanes(packet.lanes(0), packet.shared(), 0b1111, vertices);
+                let Some(found) = found else { continue };
+                for (lane, ray) in rays.iter().enumerate() {
+                    let expected = intersect(&ray.unwrap(), vertices);
+                    let bits = |found: Intersection| [found.t, found.u, found.v].map(f32::to_bits);
+                    assert_eq!(found.get(lane).map(bits), expected.map(bits), "{ray:?}");
+                    met += usize::from(expected.is_some());
+                }
+            }
+        }
+        assert!(met > 100, "{met}");
     }
 }

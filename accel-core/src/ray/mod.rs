@@ -1,10 +1,12 @@
 //! Rays: as a caller describes them, and as a traversal wants them.
 
+pub mod packet;
 mod prepared;
 mod segment;
 
 use glam::Vec3;
 
+pub use packet::{PacketVector, RayPacket};
 pub(crate) use prepared::Shear;
 pub use prepared::{Interval, PreparedRay, max_or_keep, min_or_keep};
 pub use segment::RaySegment;

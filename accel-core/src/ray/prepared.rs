@@ -74,7 +74,10 @@ impl PreparedRay {
         // False for a NaN bound as well.
         let has_interval = t_min <= t_max;
         let reciprocal = Vec3::from_array(direction.to_array().map(usable_reciprocal));
-        has_interval.then(|| Self {
+        if !has_interval {
+            return None;
+        }
+        Some(Self {
             origin,
             direction,
             reciprocal,
@@ -217,10 +220,10 @@ fn usable_reciprocal(component: f32) -> f32 {
 }
 
 /// What the near end of a slab interval is multiplied by.
-const NEAR_PAD: f32 = 1.0 - 2.0 * gamma(3);
+pub(super) const NEAR_PAD: f32 = 1.0 - 2.0 * gamma(3);
 
 /// What the far end of a slab interval is multiplied by.
-const FAR_PAD: f32 = 1.0 + 2.0 * gamma(3);
+pub(super) const FAR_PAD: f32 = 1.0 + 2.0 * gamma(3);
 
 /// The larger; `current` where `candidate` is NaN, which a ray inside a plane
 /// produces (0 times infinity) and which must not constrain it. The operand

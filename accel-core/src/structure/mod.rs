@@ -1,6 +1,7 @@
 //! What every acceleration structure can do.
 
 mod dynamic;
+mod in_packets;
 mod packet;
 mod stack;
 mod validation;
@@ -15,8 +16,9 @@ use crate::split::SurfaceAreaHeuristic;
 use crate::statistics::{BytesByPart, TraversalStatistics, TreeOutline, TreeStatistics};
 
 pub use dynamic::DynStructure;
+pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
-pub use stack::{StackEntry, TraversalStack};
+pub use stack::{PacketStack, StackEntry, TraversalStack};
 
 /// Answers ray queries over a set of primitives.
 ///
@@ -208,7 +210,7 @@ pub trait AccelerationStructure: Send + Sync {
     }
 }
 
-/// Rays of a batch that one task answers.
+/// Rays of a batch that one task answers: whole packets.
 const BATCH: usize = 256;
 
 /// Answers `rays` into `answers`, halving the batch over all cores.
@@ -217,17 +219,27 @@ fn for_each_ray<R: Sync, A: Send>(
     answers: &mut [A],
     answer: &(impl Fn(&R) -> A + Sync),
 ) {
-    if rays.len() <= BATCH {
+    for_each_batch(rays, answers, &|rays: &[R], answers: &mut [A]| {
         for (ray, slot) in rays.iter().zip(answers) {
             *slot = answer(ray);
         }
-        return;
+    });
+}
+
+/// Answers batches of `rays` into those of `answers`, on all cores.
+fn for_each_batch<R: Sync, A: Send>(
+    rays: &[R],
+    answers: &mut [A],
+    answer: &(impl Fn(&[R], &mut [A]) + Sync),
+) {
+    if rays.len() <= BATCH {
+        return answer(rays, answers);
     }
-    let middle = rays.len() / 2;
+    let middle = (rays.len() / 2).next_multiple_of(BATCH);
     let (left_rays, right_rays) = rays.split_at(middle);
     let (left_answers, right_answers) = answers.split_at_mut(middle);
     join(
-        || for_each_ray(left_rays, left_answers, answer),
-        || for_each_ray(right_rays, right_answers, answer),
+        || for_each_batch(left_rays, left_answers, answer),
+        || for_each_batch(right_rays, right_answers, answer),
     );
 }

@@ -59,6 +59,44 @@ impl<N: Copy> TraversalStack<N> {
     }
 }
 
+/// As [`TraversalStack`], for packets: when an entry still matters is theirs to
+/// say.
+#[derive(Clone, Debug)]
+pub struct PacketStack<E> {
+    entries: ArrayVec<E, { BuildBudget::DEEPEST as usize + 8 }>,
+}
+
+impl<E> PacketStack<E> {
+    /// An empty stack.
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self {
+            entries: ArrayVec::new(),
+        }
+    }
+
+    /// Puts `entry` off.
+    ///
+    /// # Panics
+    /// If the tree is deeper than [`BuildBudget::DEEPEST`].
+    #[inline(always)]
+    pub fn push(&mut self, entry: E) {
+        self.entries.push(entry);
+    }
+
+    /// The entry put off last.
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<E> {
+        self.entries.pop()
+    }
+}
+
+impl<E> Default for PacketStack<E> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<N: Copy> Default for TraversalStack<N> {
     fn default() -> Self {
         Self::new()

@@ -2,9 +2,39 @@
 
 use crate::error::ValidationError;
 use crate::geometry::Aabb;
+use crate::primitive::Primitive;
 use crate::statistics::{NodeKind, OutlineNode, TreeOutline};
+use crate::structure::AccelerationStructure;
 
 impl TreeOutline {
+    /// Checks the invariants of [`validate`](Self::validate) for the outline of
+    /// `structure`.
+    ///
+    /// # Errors
+    /// The first [`ValidationError`] found.
+    pub fn validate_of(
+        &self,
+        structure: &impl AccelerationStructure,
+    ) -> Result<(), ValidationError> {
+        self.validate(structure.primitive_count(), |id| {
+            let primitive = structure.primitive(id)?;
+            Some(primitive.bounds().gate())
+        })
+    }
+
+    /// Checks that the deepest node is as deep as was `recorded`.
+    ///
+    /// # Errors
+    /// [`ValidationError::DepthMismatch`] if it is not.
+    pub fn validate_depth(&self, recorded: u32) -> Result<(), ValidationError> {
+        let actual = self.depths().into_iter().max().unwrap_or(0);
+        if actual == recorded {
+            Ok(())
+        } else {
+            Err(ValidationError::DepthMismatch { actual, recorded })
+        }
+    }
+
     /// Checks the invariants that hits rely on: every child lies inside its
     /// parent, no leaf is empty, every primitive with a gate box stands in at
     /// least one leaf, one without in none, and a primitive that stands in one

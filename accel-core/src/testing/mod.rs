@@ -3,9 +3,11 @@
 
 pub mod agreement;
 pub mod closed;
+pub mod damage;
 mod edge;
 pub mod families;
 pub mod family_check;
+pub mod mesh_file;
 mod random;
 pub mod rays;
 #[cfg(feature = "proptest")]

@@ -3,8 +3,8 @@
 use accel_core::Aabb;
 use accel_core::geometry::Axis;
 
-use super::{CarvingCosts, Partitioning};
-use crate::codec::{BoxPlane, CarvingPlanes};
+use super::{CarvingRules, NodeCosts, Partitioning};
+use crate::codec::{BoundedAxes, BoxPlane, CarvingPlanes, MOST_PLANES};
 
 /// The most carving nodes between two splitting nodes: three on one axis each
 /// carve any box.
@@ -14,7 +14,8 @@ const MAX_LEVELS: usize = 3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Carving {
     pub planes: CarvingPlanes,
-    pub positions: [f32; 2],
+    /// As many as there are planes, then zeros.
+    pub positions: [f32; MOST_PLANES],
 }
 
 /// Nested carving nodes, and what is left when they have carved.
@@ -41,15 +42,10 @@ impl CarvingPlan {
         self.levels.iter().flatten().copied()
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.levels[0].is_none()
-    }
-
     /// The cheapest way to carve `region` towards `target`, the box of
     /// `references` references; `None` where none costs less than `limit`.
     pub(super) fn cheapest(
-        costs: &CarvingCosts,
-        partitioning: Partitioning,
+        rules: &CarvingRules,
         region: Aabb,
         target: Aabb,
         references: u32,
@@ -61,8 +57,7 @@ impl CarvingPlan {
         let target = region.intersection(&target);
         let references = f64::from(references);
         let mut search = Search {
-            costs,
-            partitioning,
+            rules,
             target,
             references,
             least_tests: references * target.half_area(),
@@ -98,31 +93,64 @@ impl LoosePlanes {
         self.0 & 1 << plane.index() != 0
     }
 
+    fn on_axis(self, axis: Axis) -> bool {
+        self.0 >> (2 * axis.index()) & 0b11 != 0
+    }
+
     /// The fewest carving nodes that carve them all.
-    fn fewest_levels(self) -> usize {
-        let axes = (0..3).filter(|axis| self.0 >> (2 * axis) & 0b11 != 0);
-        axes.count().min(self.0.count_ones().div_ceil(2) as usize)
+    fn fewest_levels(self, costs: &NodeCosts) -> usize {
+        if costs.bounding.is_some() {
+            return usize::from(!self.is_empty());
+        }
+        let axes = Axis::ALL.into_iter().filter(|&axis| self.on_axis(axis));
+        let pairs = self.0.count_ones().div_ceil(2) as usize;
+        match costs.dual_axis {
+            Some(_) => axes.count().min(pairs),
+            None => axes.count(),
+        }
     }
 
     fn without(self, planes: CarvingPlanes) -> Self {
         let bit = |plane: BoxPlane| 1 << plane.index();
+        let on_axis = |axis: &Axis| 0b11 << (2 * axis.index());
         let carved = match planes {
-            CarvingPlanes::Single(axis) => 0b11 << (2 * axis.index()),
+            CarvingPlanes::Single(axis) => on_axis(&axis),
             CarvingPlanes::Dual(a, b) => bit(a) | bit(b),
+            CarvingPlanes::Bounding(bounded) => bounded
+                .axes()
+                .iter()
+                .map(on_axis)
+                .fold(0, |all, axis| all | axis),
         };
         Self(self.0 & !carved)
     }
 
     /// Every carving node that carves some of them, but those that another one
     /// beats whatever comes after: a plane on one of two axes and nothing on the
-    /// other is no cheaper than both planes of that axis, unless `lone_dual`.
-    fn carving_nodes(self, lone_dual: bool) -> impl Iterator<Item = CarvingPlanes> {
+    /// other is no cheaper than both planes of that axis, unless dual-axis nodes
+    /// are cheaper; a bounding node on an axis without loose planes is none.
+    fn carving_nodes(self, costs: &NodeCosts) -> impl Iterator<Item = CarvingPlanes> {
         let single = Axis::ALL
             .into_iter()
-            .filter(move |axis| self.0 >> (2 * axis.index()) & 0b11 != 0)
+            .filter(move |&axis| self.on_axis(axis))
             .map(CarvingPlanes::Single);
+        let bounding = BoundedAxes::ALL
+            .into_iter()
+            .filter(move |bounded| bounded.axes().iter().all(|&axis| self.on_axis(axis)))
+            .map(CarvingPlanes::Bounding);
+        let lone_dual = costs.dual_axis.is_some_and(|cost| cost < costs.single_axis);
+        let dual = costs.dual_axis.map(|_| self.dual_axis_nodes(lone_dual));
+        let bounding = costs.bounding.map(|_| bounding);
+        single
+            .chain(dual.into_iter().flatten())
+            .chain(bounding.into_iter().flatten())
+    }
+
+    /// Dual-axis nodes both of whose planes are loose; one of them is enough if
+    /// `lone_dual`.
+    fn dual_axis_nodes(self, lone_dual: bool) -> impl Iterator<Item = CarvingPlanes> {
         let pairs = [[Axis::X, Axis::Y], [Axis::X, Axis::Z], [Axis::Y, Axis::Z]];
-        let dual = pairs.into_iter().flat_map(move |[first, second]| {
+        pairs.into_iter().flat_map(move |[first, second]| {
             (0..4).filter_map(move |corner: u8| {
                 let plane = |axis, is_high| BoxPlane { axis, is_high };
                 let first = plane(first, corner & 2 != 0);
@@ -131,16 +159,14 @@ impl LoosePlanes {
                 let carves = (a && b) || (lone_dual && (a || b));
                 carves.then_some(CarvingPlanes::Dual(first, second))
             })
-        });
-        single.chain(dual)
+        })
     }
 }
 
 /// Walks all configurations of up to three nested carving nodes, leaving out
 /// those that can't cost less than the best.
 struct Search<'a> {
-    costs: &'a CarvingCosts,
-    partitioning: Partitioning,
+    rules: &'a CarvingRules,
     /// Inside the region.
     target: Aabb,
     references: f64,
@@ -155,7 +181,7 @@ impl Search<'_> {
     /// `plan` has carved down to its region, of half area `area`, for its cost,
     /// and left `loose`.
     fn visit(&mut self, plan: &CarvingPlan, area: f64, loose: LoosePlanes, level: usize) {
-        let is_similar = self.partitioning == Partitioning::Similar;
+        let is_similar = self.rules.partitioning == Partitioning::Similar;
         if loose.is_empty() || is_similar {
             let cost = plan.cost + area * self.references;
             if cost < self.limit {
@@ -167,14 +193,14 @@ impl Search<'_> {
         if loose.is_empty() || levels_left == 0 {
             return;
         }
-        let lone_dual = self.costs.dual_axis < self.costs.single_axis;
-        for planes in loose.carving_nodes(lone_dual) {
-            let cost = plan.cost + area * self.sigma(planes);
+        let costs = &self.rules.costs;
+        for planes in loose.carving_nodes(costs) {
+            let cost = plan.cost + area * costs.sigma(planes);
             if cost + self.least_tests >= self.limit {
                 continue;
             }
             let still_loose = loose.without(planes);
-            if !is_similar && still_loose.fewest_levels() >= levels_left {
+            if !is_similar && still_loose.fewest_levels(costs) >= levels_left {
                 continue;
             }
             let carving = Carving::towards(&self.target, planes);
@@ -186,14 +212,6 @@ impl Search<'_> {
             carved.levels[level] = Some(carving);
             let area = carved.region.half_area();
             self.visit(&carved, area, still_loose, level + 1);
-        }
-    }
-
-    /// Sigma of equation 1.
-    fn sigma(&self, planes: CarvingPlanes) -> f64 {
-        match planes {
-            CarvingPlanes::Single(_) => self.costs.single_axis,
-            CarvingPlanes::Dual(..) => self.costs.dual_axis,
         }
     }
 }
@@ -208,25 +226,36 @@ impl Carving {
                 target.min
             })
         };
-        let positions = match planes {
-            CarvingPlanes::Single(axis) => [axis.of(target.max), axis.of(target.min)],
-            CarvingPlanes::Dual(a, b) => [at(a), at(b)],
-        };
+        let mut positions = [0.0; MOST_PLANES];
+        let (first_two, pairs) = (&mut positions[..2], |axis: Axis| {
+            [axis.of(target.max), axis.of(target.min)]
+        });
+        match planes {
+            CarvingPlanes::Single(axis) => first_two.copy_from_slice(&pairs(axis)),
+            CarvingPlanes::Dual(a, b) => first_two.copy_from_slice(&[at(a), at(b)]),
+            CarvingPlanes::Bounding(bounded) => {
+                for (axis, pair) in bounded.axes().iter().zip(positions.chunks_exact_mut(2)) {
+                    pair.copy_from_slice(&pairs(*axis));
+                }
+            }
+        }
         Self { planes, positions }
     }
 
+    /// The positions that the node stores.
+    pub(super) fn stored_positions(&self) -> &[f32] {
+        &self.positions[..self.planes.count()]
+    }
+
     fn carve(&self, region: Aabb) -> Aabb {
-        let [first, second] = self.positions;
-        match self.planes {
-            CarvingPlanes::Single(axis) => region.with_range(axis, second, first),
-            CarvingPlanes::Dual(a, b) => a.carve(b.carve(region, second), first),
-        }
+        self.planes.carve(region, &self.positions)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::CarvingCosts;
 
     fn plan(
         partitioning: Partitioning,
@@ -234,16 +263,12 @@ mod tests {
         target: Aabb,
         references: u32,
     ) -> CarvingPlan {
-        let costs = CarvingCosts::default();
-        CarvingPlan::cheapest(
-            &costs,
+        let rules = CarvingRules {
             partitioning,
-            region,
-            target,
-            references,
-            f64::INFINITY,
-        )
-        .expect("some plan is finite")
+            costs: NodeCosts::from(CarvingCosts::default()),
+        };
+        CarvingPlan::cheapest(&rules, region, target, references, f64::INFINITY)
+            .expect("some plan is finite")
     }
 
     #[test]
@@ -257,7 +282,7 @@ mod tests {
         assert_eq!((carvings, carved.region), (vec![planes], half));
         assert!((carved.cost - (0.3 * 3.0 + 4.0 * 2.0)).abs() < 1e-12);
         let whole = plan(Partitioning::Identical, cube, cube, 4);
-        assert!(whole.is_empty() && whole.cost == 4.0 * 3.0);
+        assert!(whole.carvings().count() == 0 && whole.cost == 4.0 * 3.0);
     }
 
     #[test]
@@ -267,7 +292,7 @@ mod tests {
         let slightly_smaller = Aabb::new([0.0; 3], [1.0, 1.0, 0.9]);
         for (references, is_empty) in [(4, true), (5, false)] {
             let plan = plan(Partitioning::Similar, cube, slightly_smaller, references);
-            assert_eq!(plan.is_empty(), is_empty, "{references}");
+            assert_eq!(plan.carvings().count() == 0, is_empty, "{references}");
         }
     }
 

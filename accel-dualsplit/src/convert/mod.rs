@@ -16,11 +16,14 @@ mod packing;
 mod sizes;
 mod splitting;
 
-use accel_bvh::Bvh;
-use accel_core::layout::StoredPrimitives;
-use accel_core::{BuildBudget, BuildError, Primitive};
+use std::marker::PhantomData;
 
-use crate::tree::DualSplitTree;
+use accel_bvh::Bvh;
+use accel_core::{AccelerationStructure, BuildBudget, BuildError, Primitive};
+
+use crate::codec::CarvingPlanes;
+use crate::node_set::NodeSet;
+use crate::tree::{DualSplitTree, PlaneTree};
 use packing::Packing;
 use sizes::SubtreeSizes;
 
@@ -82,13 +85,58 @@ impl Default for CarvingCosts {
     }
 }
 
-impl CarvingCosts {
-    fn validate(&self) -> Result<(), BuildError> {
-        let costs = [
-            ("carving_costs.single_axis", self.single_axis),
-            ("carving_costs.dual_axis", self.dual_axis),
-        ];
-        for (setting, cost) in costs {
+impl DualSplitConverter {
+    /// Converts `bvh`. The primitives in their leaves are copied; hits name them
+    /// as before.
+    ///
+    /// # Errors
+    /// [`BuildError::OffsetOverflow`] if an offset or the number of a leaf takes
+    /// more than 26 bits, [`BuildError::BudgetExceeded`],
+    /// [`BuildError::InvalidSetting`].
+    pub fn convert<P: Primitive>(&self, bvh: &Bvh<P>) -> Result<DualSplitTree<P>, BuildError> {
+        NodeCosts::check(&[
+            ("carving_costs.single_axis", self.carving_costs.single_axis),
+            ("carving_costs.dual_axis", self.carving_costs.dual_axis),
+        ])?;
+        let rules = CarvingRules {
+            partitioning: self.partitioning,
+            costs: self.carving_costs.into(),
+        };
+        rules.convert(bvh, &self.budget)
+    }
+}
+
+/// How a conversion carves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CarvingRules {
+    pub partitioning: Partitioning,
+    pub costs: NodeCosts,
+}
+
+/// What carving nodes cost, in tests of a primitive; `None` for those that a tree
+/// does not have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodeCosts {
+    pub single_axis: f64,
+    pub dual_axis: Option<f64>,
+    /// Bounding nodes on two axes and on three.
+    pub bounding: Option<[f64; 2]>,
+}
+
+impl From<CarvingCosts> for NodeCosts {
+    fn from(costs: CarvingCosts) -> Self {
+        Self {
+            single_axis: costs.single_axis,
+            dual_axis: Some(costs.dual_axis),
+            bounding: None,
+        }
+    }
+}
+
+impl NodeCosts {
+    /// Checks costs, each with the name of its setting.
+    pub(crate) fn check(costs: &[(&'static str, f64)]) -> Result<(), BuildError> {
+        for &(setting, cost) in costs {
             if !(cost > 0.0 && cost.is_finite()) {
                 return Err(BuildError::InvalidSetting {
                     setting,
@@ -99,37 +147,42 @@ impl CarvingCosts {
         }
         Ok(())
     }
+
+    /// Sigma of equation 1; infinite for a node that the tree does not have.
+    fn sigma(&self, planes: CarvingPlanes) -> f64 {
+        let cost = match planes {
+            CarvingPlanes::Single(_) => Some(self.single_axis),
+            CarvingPlanes::Dual(..) => self.dual_axis,
+            CarvingPlanes::Bounding(bounded) => {
+                let is_box = bounded.axes().len() == 3;
+                self.bounding.map(|costs| costs[usize::from(is_box)])
+            }
+        };
+        cost.unwrap_or(f64::INFINITY)
+    }
 }
 
-impl DualSplitConverter {
-    /// Converts `bvh`. The primitives in their leaves are copied; hits name them
-    /// as before.
-    ///
-    /// # Errors
-    /// [`BuildError::OffsetOverflow`] if an offset or the number of a leaf takes
-    /// more than 26 bits, [`BuildError::BudgetExceeded`],
-    /// [`BuildError::InvalidSetting`].
-    pub fn convert<P: Primitive>(&self, bvh: &Bvh<P>) -> Result<DualSplitTree<P>, BuildError> {
-        let (words, depth) = self.words_of(bvh)?;
-        let stored: StoredPrimitives<P> = accel_core::AccelerationStructure::stored(bvh).clone();
-        Ok(DualSplitTree {
-            words,
-            stored,
-            bounds: bvh.root().map(|(_, bounds)| bounds),
-            depth,
-        })
-    }
-
-    /// The words of the tree, and its depth.
-    fn words_of<P: Primitive>(&self, bvh: &Bvh<P>) -> Result<(Vec<u32>, u32), BuildError> {
-        self.carving_costs.validate()?;
-        self.budget.validate()?;
-        let Some((root, bounds)) = bvh.root() else {
-            return Ok((Vec::new(), 0));
+impl CarvingRules {
+    pub(crate) fn convert<P: Primitive, N: NodeSet>(
+        &self,
+        bvh: &Bvh<P>,
+        budget: &BuildBudget,
+    ) -> Result<PlaneTree<P, N>, BuildError> {
+        budget.validate()?;
+        let words = match bvh.root() {
+            None => Vec::new(),
+            Some((root, bounds)) => {
+                budget.check_bytes(packing::most_bytes(bvh))?;
+                let sizes = SubtreeSizes::new(bvh, root);
+                Packing::new(self, bvh, &sizes).pack(root, bounds)?
+            }
         };
-        self.budget.check_bytes(packing::most_bytes(bvh))?;
-        let sizes = SubtreeSizes::new(bvh, root);
-        let words = Packing::new(self, bvh, &sizes).pack(root, bounds)?;
-        Ok((words, bvh.depth()))
+        Ok(PlaneTree {
+            words,
+            stored: AccelerationStructure::stored(bvh).clone(),
+            bounds: bvh.bounds(),
+            depth: bvh.depth(),
+            nodes: PhantomData,
+        })
     }
 }

@@ -11,7 +11,7 @@ use accel_core::build::join;
 use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
-use super::DualSplitConverter;
+use super::CarvingRules;
 use super::carving::{Carving, CarvingPlan};
 use super::sizes::{SizedNode, SubtreeSizes};
 use super::splitting::SplittingPlan;
@@ -23,8 +23,9 @@ const FORK_SIZE: u32 = 4096;
 /// Nothing forks further below the root than this.
 const FORK_DEPTH: u32 = 24;
 
-/// Bytes that a conversion holds at most, besides the BVH: a splitting node and
-/// three carving nodes for each inner node.
+/// Bytes that a conversion holds at most, besides the BVH: for each inner node a
+/// splitting node, and three carving nodes of two planes each before either child.
+/// One bounding node of six planes takes no more.
 pub(super) fn most_bytes<P: Primitive>(bvh: &Bvh<P>) -> usize {
     let storage = bvh.stored().leaves().bytes();
     let nodes = bvh.node_bytes() / accel_bvh::INNER_NODE_BYTES + 1;
@@ -33,7 +34,7 @@ pub(super) fn most_bytes<P: Primitive>(bvh: &Bvh<P>) -> usize {
 }
 
 pub(super) struct Packing<'a, P: Primitive> {
-    converter: &'a DualSplitConverter,
+    rules: &'a CarvingRules,
     bvh: &'a Bvh<P>,
     sizes: &'a SubtreeSizes,
 }
@@ -47,16 +48,8 @@ struct Reserved {
 }
 
 impl<'a, P: Primitive> Packing<'a, P> {
-    pub(super) fn new(
-        converter: &'a DualSplitConverter,
-        bvh: &'a Bvh<P>,
-        sizes: &'a SubtreeSizes,
-    ) -> Self {
-        Self {
-            converter,
-            bvh,
-            sizes,
-        }
+    pub(super) fn new(rules: &'a CarvingRules, bvh: &'a Bvh<P>, sizes: &'a SubtreeSizes) -> Self {
+        Self { rules, bvh, sizes }
     }
 
     pub(super) fn pack(&self, root: NodeHandle, bounds: Aabb) -> Result<Vec<u32>, BuildError> {
@@ -129,23 +122,25 @@ impl<'a, P: Primitive> Packing<'a, P> {
         } = *reserved;
         let source = self.bvh.node(node.handle);
         let mut carvings = plan.carvings().peekable();
-        while let Some(Carving { planes, positions }) = carvings.next() {
-            let is_last = carvings.peek().is_none();
-            let (header, offset) = match source {
-                BvhNode::Leaf(leaf) if is_last => {
-                    let is_leaf = true;
-                    (Header::Carving { planes, is_leaf }, leaf as usize)
+        while let Some(carving) = carvings.next() {
+            let next = carvings.peek().copied();
+            let header = |is_leaf| Header::Carving {
+                planes: carving.planes,
+                is_leaf,
+            };
+            let positions = carving.stored_positions();
+            match source {
+                BvhNode::Leaf(leaf) if next.is_none() => {
+                    write_node(words, position, header(true), leaf as usize, positions)?;
+                    return Ok(None);
                 }
                 _ => {
-                    let is_leaf = false;
-                    (Header::Carving { planes, is_leaf }, words.len() - position)
+                    let offset = words.len() - position;
+                    write_node(words, position, header(false), offset, positions)?;
                 }
-            };
-            write_node(words, position, header, offset, positions)?;
-            if header.is_leaf() {
-                return Ok(None);
             }
-            position = reserve(words, NODE_WORDS);
+            // What follows is no plain leaf: that would be this node.
+            position = reserve(words, next.map_or(NODE_WORDS, carving_words));
         }
         match source {
             BvhNode::Leaf(leaf) => {
@@ -154,14 +149,14 @@ impl<'a, P: Primitive> Packing<'a, P> {
             }
             BvhNode::Inner { bounds, children } => {
                 let children = self.sizes.children(self.bvh, node, children);
-                let split = SplittingPlan::cheapest(self.converter, plan.region, bounds, children);
+                let split = SplittingPlan::cheapest(self.rules, plan.region, bounds, children);
                 let [(first, first_plan), (second, second_plan)] = split.children;
                 let header = Header::Splitting {
                     axis: split.axis,
                     first_child_words: first_words(first, &first_plan),
                 };
                 let offset = words.len() - position;
-                write_node(words, position, header, offset, split.positions)?;
+                write_node(words, position, header, offset, &split.positions)?;
                 let mut child = |node, plan| Reserved {
                     position: reserve(words, first_words(node, &plan)),
                     node,
@@ -176,11 +171,15 @@ impl<'a, P: Primitive> Packing<'a, P> {
 
 /// Words of the first node that stands for a node of the BVH.
 fn first_words(node: SizedNode, plan: &CarvingPlan) -> usize {
-    if node.handle.is_leaf() && plan.is_empty() {
-        LEAF_WORDS
-    } else {
-        NODE_WORDS
+    match plan.carvings().next() {
+        Some(carving) => carving_words(carving),
+        None if node.handle.is_leaf() => LEAF_WORDS,
+        None => NODE_WORDS,
     }
+}
+
+fn carving_words(carving: Carving) -> usize {
+    LEAF_WORDS + carving.planes.count()
 }
 
 fn reserve(words: &mut Vec<u32>, count: usize) -> usize {
@@ -194,11 +193,15 @@ fn write_node(
     position: usize,
     header: Header,
     offset: usize,
-    planes: [f32; 2],
+    planes: &[f32],
 ) -> Result<(), BuildError> {
-    words[position] = encode(header, offset)?;
-    words[position + 1] = planes[0].to_bits();
-    words[position + 2] = planes[1].to_bits();
+    let (first, rest) = words[position..]
+        .split_first_mut()
+        .expect("the node's words are reserved");
+    *first = encode(header, offset)?;
+    for (word, plane) in rest.iter_mut().zip(planes) {
+        *word = plane.to_bits();
+    }
     Ok(())
 }
 
@@ -229,7 +232,7 @@ mod tests {
 
     #[test]
     fn an_offset_beyond_26_bits_is_a_typed_error_and_the_largest_is_none() {
-        let node = |offset| write_node(&mut [0; 3], 0, Header::Leaf, offset, [0.0; 2]);
+        let node = |offset| write_node(&mut [0; 3], 0, Header::Leaf, offset, &[]);
         assert_eq!(node((1 << 26) - 1), Ok(()));
         let error = BuildError::OffsetOverflow {
             needed: 1 << 26,

@@ -4,7 +4,7 @@
 use accel_core::Aabb;
 use accel_core::geometry::Axis;
 
-use super::DualSplitConverter;
+use super::CarvingRules;
 use super::carving::CarvingPlan;
 use super::sizes::SizedNode;
 
@@ -21,7 +21,7 @@ impl SplittingPlan {
     /// Splits what is left of space, `region`, between two children with these
     /// boxes.
     pub(super) fn cheapest(
-        converter: &DualSplitConverter,
+        rules: &CarvingRules,
         region: Aabb,
         bounds: [Aabb; 2],
         children: [SizedNode; 2],
@@ -29,7 +29,7 @@ impl SplittingPlan {
         let mut best: Option<Self> = None;
         for axis in Axis::ALL {
             let limit = best.as_ref().map_or(f64::INFINITY, Self::cost);
-            let along = Self::along(converter, axis, region, bounds, children, limit);
+            let along = Self::along(rules, axis, region, bounds, children, limit);
             best = along.or(best);
         }
         best.expect("costs are finite, so the first axis has a plan")
@@ -38,7 +38,7 @@ impl SplittingPlan {
     /// The children are ordered by their centres, so that each inherits the bound
     /// of the region on its own side. `None` unless this costs less than `limit`.
     fn along(
-        converter: &DualSplitConverter,
+        rules: &CarvingRules,
         axis: Axis,
         region: Aabb,
         bounds: [Aabb; 2],
@@ -55,8 +55,7 @@ impl SplittingPlan {
         let plan = |side: usize, limit: f64| {
             let child = children[order[side]];
             let plan = CarvingPlan::cheapest(
-                &converter.carving_costs,
-                converter.partitioning,
+                rules,
                 regions[side],
                 bounds[order[side]],
                 child.references,

@@ -59,7 +59,7 @@ impl<P: Clip> SpatialSearch<'_, P> {
         limits: &SplitLimits,
     ) -> Option<SpatialCandidate> {
         let fragments = node.fragments.any_order();
-        let mut bins = SpatialBins::new(axis, &node.tight, self.bins)?;
+        let mut bins = SpatialBins::new(axis, &node.tight, self.bins_of(fragments.len()))?;
         for fragment in fragments {
             bins.count(fragment);
         }
@@ -69,6 +69,12 @@ impl<P: Clip> SpatialSearch<'_, P> {
         }
         let parts = self.chop(fragments, &bins, &candidates);
         cheapest(axis, &candidates, &parts, cost, limits)
+    }
+
+    /// How many bins a node of `count` references has: two at least.
+    fn bins_of(&self, count: usize) -> usize {
+        let worthwhile = self.bins_per_reference.saturating_mul(count);
+        self.bins.min(worthwhile.max(2))
     }
 
     /// The boxes of what lies before the first candidate plane, between every
@@ -323,6 +329,7 @@ mod tests {
             primitives: triangles,
             clipping,
             bins: 4,
+            bins_per_reference: usize::MAX,
         }
     }
 

@@ -52,7 +52,10 @@ pub(crate) struct SplitLimits {
 pub(crate) struct SpatialSearch<'a, P> {
     pub primitives: &'a [P],
     pub clipping: CandidateClipping,
+    /// The most bins along an axis.
     pub bins: usize,
+    /// No more bins than this for each reference of a node.
+    pub bins_per_reference: usize,
 }
 
 impl<P: Clip> SpatialSearch<'_, P> {

@@ -25,9 +25,12 @@ pub(super) fn ray_row(
         kind: set.kind.name().to_owned(),
         count: set.rays.len(),
         note: set.note.clone(),
-        // A structure that gives other answers has no speed.
-        mrays_per_second: (verified.disagreements == 0 && !set.rays.is_empty())
-            .then(|| Spread::of(&timings.mrays_per_second)),
+        // A structure that gives other answers has no speed, nor one that was not
+        // timed.
+        mrays_per_second: (verified.disagreements == 0
+            && !set.rays.is_empty()
+            && !timings.mrays_per_second.is_empty())
+        .then(|| Spread::of(&timings.mrays_per_second)),
         nodes_per_ray: mean_max(&counters.nodes),
         box_tests_per_ray: mean_max(&counters.box_tests),
         plane_tests_per_ray: mean_max(&counters.plane_tests),

@@ -74,7 +74,9 @@ fn compare_scene(
     let sets: Vec<RaySet> = ray_source(scene, &finder, options.size, options.scene.seed)
         .map(|source| {
             let kinds = ray_kinds(&options.rays).into_iter();
-            kinds.map(|kind| source.rays(kind)).collect()
+            kinds
+                .map(|kind| source.rays(kind).in_tiles(options.size.0))
+                .collect()
         })
         .unwrap_or_default();
     let built = build_rounds(scene, rows, options)?;
@@ -83,7 +85,7 @@ fn compare_scene(
         .map(|(structure, _)| structure.as_ref())
         .collect();
     let verified = verify_samples(scene, &structures, &sets, options)?;
-    let timings = time(scene, &structures, &sets, options.rounds);
+    let timings = time(scene, rows, &structures, &sets, options.rounds);
     for (position, row) in rows.iter().enumerate() {
         let (structure, build_seconds) = &built[position];
         let rays = sets
@@ -157,15 +159,23 @@ fn verify_samples(
     Ok(verified)
 }
 
+/// Packets are timed on coherent rays alone.
 fn time(
     scene: &Scene,
+    rows: &[&Row],
     structures: &[&dyn DynStructure],
     sets: &[RaySet],
     rounds: usize,
 ) -> Vec<Vec<Timings>> {
     let steps = (structures.len() * sets.len() * rounds) as u64;
     let bar = progress::bar(&format!("{}: timing", scene.name), steps);
-    let timings = measure::time_rounds(structures, sets, rounds, || bar.inc(1));
+    let timings = measure::time_rounds(
+        structures,
+        sets,
+        rounds,
+        |structure, set| !rows[structure].is_packet() || sets[set].kind.is_coherent(),
+        || bar.inc(1),
+    );
     bar.finish_and_clear();
     timings
 }

@@ -47,6 +47,7 @@ impl Methods {
 pub(super) fn sbvh(invalid_primitives: InvalidPrimitives) -> SbvhBuilder {
     SbvhBuilder {
         leaf_rule: LEAF_RULE,
+        bins_per_reference: usize::MAX,
         invalid_primitives,
         ..SbvhBuilder::default()
     }

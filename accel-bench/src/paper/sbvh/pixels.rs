@@ -94,7 +94,7 @@ impl PixelRays {
     /// The speed of each tree relative to the last one.
     pub(super) fn speeds(&self, structures: &[&dyn DynStructure], rounds: usize) -> Vec<Speeds> {
         let sets = [self.primary.clone(), self.ambient.clone()];
-        let timings = measure::time_rounds(structures, &sets, rounds, || ());
+        let timings = measure::time_rounds(structures, &sets, rounds, |_, _| true, || ());
         let relative = |structure: usize, set: usize| {
             let own = &timings[structure][set].mrays_per_second;
             let last = &timings[structures.len() - 1][set].mrays_per_second;

@@ -4,8 +4,12 @@
 //! default build uses them without any detection. Elsewhere they are arrays,
 //! with the same results bit for bit.
 
+use super::doubles::F64x2;
+use super::{Lanes, PairOfDoubles};
+
 /// Four `f32`. Operations are lane by lane, in IEEE single precision.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct F32x4(lanes::Lanes);
 
 impl F32x4 {
@@ -61,6 +65,58 @@ impl F32x4 {
     }
 }
 
+#[allow(unsafe_code)]
+impl Lanes for F32x4 {
+    const COUNT: usize = 4;
+
+    type Doubles = PairOfDoubles<F64x2>;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self::splat(value)
+    }
+    #[inline(always)]
+    fn from_slice(values: &[f32]) -> Self {
+        let values = &values[..4];
+        Self::new(values[0], values[1], values[2], values[3])
+    }
+    #[inline(always)]
+    fn lanes(&self) -> &[f32] {
+        // SAFETY: a vector in memory is its lanes, side by side.
+        unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 4) }
+    }
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f32] {
+        // SAFETY: as above, and every bit pattern is a lane.
+        unsafe { std::slice::from_raw_parts_mut((&raw mut *self).cast(), 4) }
+    }
+    #[inline(always)]
+    fn max_or_keep(self, other: Self) -> Self {
+        self.max_or_keep(other)
+    }
+    #[inline(always)]
+    fn min_or_keep(self, other: Self) -> Self {
+        self.min_or_keep(other)
+    }
+    #[inline(always)]
+    fn le_mask(self, other: Self) -> u32 {
+        self.le_mask(other)
+    }
+    #[inline(always)]
+    fn lt_mask(self, other: Self) -> u32 {
+        lanes::lt_mask(self.0, other.0)
+    }
+    #[inline(always)]
+    fn to_doubles(self) -> Self::Doubles {
+        let [low, high] = lanes::to_doubles(self.0);
+        PairOfDoubles(F64x2(low), F64x2(high))
+    }
+    #[inline(always)]
+    fn from_doubles(doubles: Self::Doubles) -> Self {
+        Self(lanes::from_doubles(doubles.0.0, doubles.1.0))
+    }
+}
+
 impl std::ops::Add for F32x4 {
     type Output = Self;
     #[inline(always)]
@@ -91,6 +147,8 @@ impl std::ops::Mul for F32x4 {
 #[allow(unsafe_code)]
 mod lanes {
     use core::arch::x86_64 as sse;
+
+    use super::super::doubles::register::Register;
 
     pub type Lanes = sse::__m128;
 
@@ -136,6 +194,26 @@ mod lanes {
         unsafe { sse::_mm_movemask_ps(sse::_mm_cmple_ps(a, b)) as u32 }
     }
     #[inline(always)]
+    pub fn lt_mask(a: Lanes, b: Lanes) -> u32 {
+        // SAFETY: as above.
+        unsafe { sse::_mm_movemask_ps(sse::_mm_cmplt_ps(a, b)) as u32 }
+    }
+    #[inline(always)]
+    pub fn to_doubles(a: Lanes) -> [Register; 2] {
+        // SAFETY: as above.
+        unsafe {
+            [
+                sse::_mm_cvtps_pd(a),
+                sse::_mm_cvtps_pd(sse::_mm_movehl_ps(a, a)),
+            ]
+        }
+    }
+    #[inline(always)]
+    pub fn from_doubles(low: Register, high: Register) -> Lanes {
+        // SAFETY: as above.
+        unsafe { sse::_mm_movelh_ps(sse::_mm_cvtpd_ps(low), sse::_mm_cvtpd_ps(high)) }
+    }
+    #[inline(always)]
     pub fn to_array(a: Lanes) -> [f32; 4] {
         let mut array = [0.0; 4];
         // SAFETY: as above, and the array has room for four lanes.
@@ -153,6 +231,7 @@ mod lanes {
 
 #[cfg(not(target_arch = "x86_64"))]
 mod lanes {
+    use super::super::doubles::register::Register;
     use crate::ray;
 
     pub type Lanes = [f32; 4];
@@ -194,6 +273,21 @@ mod lanes {
         (0..4)
             .map(|lane| u32::from(a[lane] <= b[lane]) << lane)
             .sum()
+    }
+    #[inline(always)]
+    pub fn lt_mask(a: Lanes, b: Lanes) -> u32 {
+        (0..4)
+            .map(|lane| u32::from(a[lane] < b[lane]) << lane)
+            .sum()
+    }
+    #[inline(always)]
+    pub fn to_doubles(a: Lanes) -> [Register; 2] {
+        let a = a.map(f64::from);
+        [[a[0], a[1]], [a[2], a[3]]]
+    }
+    #[inline(always)]
+    pub fn from_doubles(low: Register, high: Register) -> Lanes {
+        [low[0] as f32, low[1] as f32, high[0] as f32, high[1] as f32]
     }
     #[inline(always)]
     pub fn to_array(a: Lanes) -> [f32; 4] {

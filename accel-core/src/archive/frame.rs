@@ -1,85 +1,11 @@
-//! Saving structures, and loading them from bytes that nobody vouches for.
-//!
-//! An archive is little-endian: eight bytes that name the structure, its format's
-//! version, a fingerprint of the scene, the structure's own words, and a checksum
-//! of all before it. The checksum finds accidents; against anything else a
-//! structure validates every word that it reads.
+//! The frame: what stands before and behind a structure's own words.
 
-/// Why an archive was not loaded.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LoadError {
-    /// It does not begin as an archive of this structure does.
-    #[error(
-        "this is no archive of this structure: it begins with {found:02x?}, not {expected:02x?}"
-    )]
-    WrongKind {
-        /// The first bytes.
-        found: Vec<u8>,
-        /// What they should be.
-        expected: [u8; 8],
-    },
-    /// It was written in another version of the format.
-    #[error("the archive has version {found}; this library reads version {expected}")]
-    WrongVersion {
-        /// Its version.
-        found: u32,
-        /// The version that is read.
-        expected: u32,
-    },
-    /// It was built over other primitives.
-    #[error("the archive is of the scene {found:016x}; the primitives given are {expected:016x}")]
-    WrongScene {
-        /// The fingerprint in the archive.
-        found: u64,
-        /// That of the primitives given.
-        expected: u64,
-    },
-    /// Its bytes have changed since it was written.
-    #[error(
-        "the archive is damaged: its checksum is {found:016x}, but {expected:016x} is recorded"
-    )]
-    WrongChecksum {
-        /// The checksum of its bytes.
-        found: u64,
-        /// The one recorded.
-        expected: u64,
-    },
-    /// It ends early, or goes on after its end.
-    #[error("the archive has {available} bytes where {needed} are needed")]
-    WrongLength {
-        /// Bytes that its content takes.
-        needed: usize,
-        /// Bytes that are there.
-        available: usize,
-    },
-    /// A word makes no sense.
-    #[error("the archive has {what} {value}, but the limit is {limit}")]
-    OutOfRange {
-        /// What the word means.
-        what: &'static str,
-        /// Its value.
-        value: u64,
-        /// The largest value, or the one expected.
-        limit: u64,
-    },
-}
+use super::{LoadError, checksum};
+use crate::geometry::Aabb;
+use crate::glam::Vec3;
 
 const KIND_BYTES: usize = 8;
 const CHECKSUM_BYTES: usize = 8;
-
-/// The 64-bit hash of Fowler, Noll and Vo (FNV-1a) of a sequence of words, as the
-/// fingerprint of a scene.
-pub fn fingerprint(words: impl Iterator<Item = u32>) -> u64 {
-    words.fold(FNV_START, |hash, word| fnv(hash, &word.to_le_bytes()))
-}
-
-const FNV_START: u64 = 0xcbf2_9ce4_8422_2325;
-
-fn fnv(hash: u64, bytes: &[u8]) -> u64 {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(hash, step)
-}
 
 /// Writes an archive word by word.
 #[derive(Clone, Debug)]
@@ -101,9 +27,25 @@ impl ArchiveWriter {
         self.bytes.extend(word.to_le_bytes());
     }
 
+    /// Adds a box, six words.
+    pub fn push_bounds(&mut self, bounds: &Aabb) {
+        for coordinate in [bounds.min, bounds.max]
+            .into_iter()
+            .flat_map(|v| v.to_array())
+        {
+            self.push(coordinate.to_bits());
+        }
+    }
+
+    /// Adds a count and as many words.
+    pub fn push_list(&mut self, words: impl ExactSizeIterator<Item = u32>) {
+        self.push(words.len() as u32);
+        words.for_each(|word| self.push(word));
+    }
+
     /// Adds the checksum.
     pub fn finish(mut self) -> Vec<u8> {
-        let checksum = fnv(FNV_START, &self.bytes);
+        let checksum = checksum(&self.bytes);
         self.bytes.extend(checksum.to_le_bytes());
         self.bytes
     }
@@ -149,7 +91,7 @@ impl<'a> ArchiveReader<'a> {
                 expected: version,
             });
         }
-        let (found, expected) = (fnv(FNV_START, content), Self { rest: recorded }.long()?);
+        let (found, expected) = (checksum(content), Self { rest: recorded }.long()?);
         if found != expected {
             return Err(LoadError::WrongChecksum { found, expected });
         }
@@ -199,6 +141,37 @@ impl<'a> ArchiveReader<'a> {
         Ok(count)
     }
 
+    /// The next six words: a box, valid or empty.
+    ///
+    /// # Errors
+    /// [`LoadError::OutOfRange`] for any other box, [`LoadError::WrongLength`] at
+    /// the end.
+    pub fn bounds(&mut self) -> Result<Aabb, LoadError> {
+        let mut corner = || -> Result<Vec3, LoadError> {
+            let mut coordinate = || self.word().map(f32::from_bits);
+            Ok(Vec3::new(coordinate()?, coordinate()?, coordinate()?))
+        };
+        let bounds = Aabb::new(corner()?, corner()?);
+        if bounds.is_valid() || bounds == Aabb::EMPTY {
+            Ok(bounds)
+        } else {
+            Err(LoadError::OutOfRange {
+                what: "boxes that are not finite",
+                value: 1,
+                limit: 0,
+            })
+        }
+    }
+
+    /// The next word, a count, and as many words.
+    ///
+    /// # Errors
+    /// [`LoadError::WrongLength`] if there are not as many.
+    pub fn list(&mut self) -> Result<Vec<u32>, LoadError> {
+        let count = self.count(1)?;
+        (0..count).map(|_| self.word()).collect()
+    }
+
     /// Checks that nothing is left.
     ///
     /// # Errors
@@ -219,12 +192,15 @@ mod tests {
     use super::*;
 
     const KIND: [u8; 8] = *b"testkind";
+    const BOUNDS: Aabb = Aabb {
+        min: Vec3::ZERO,
+        max: Vec3::ONE,
+    };
 
     fn archive() -> Vec<u8> {
         let mut writer = ArchiveWriter::new(KIND, 3, 77);
-        writer.push(2);
-        writer.push(9);
-        writer.push(8);
+        writer.push_list([9, 8].into_iter());
+        writer.push_bounds(&BOUNDS);
         writer.finish()
     }
 
@@ -232,10 +208,23 @@ mod tests {
     fn words_come_back_and_the_end_is_checked() {
         let bytes = archive();
         let mut reader = ArchiveReader::new(&bytes, KIND, 3, 77).unwrap();
-        assert_eq!(reader.count(1), Ok(2));
+        assert_eq!(reader.list(), Ok(vec![9, 8]));
         assert!(reader.finish().is_err());
-        assert_eq!((reader.word(), reader.word()), (Ok(9), Ok(8)));
+        assert_eq!(reader.bounds(), Ok(BOUNDS));
         assert!(reader.finish().is_ok() && reader.word().is_err());
+    }
+
+    #[test]
+    fn counts_beyond_the_end_and_boxes_without_sense_are_refused() {
+        let mut writer = ArchiveWriter::new(KIND, 3, 77);
+        writer.push_bounds(&Aabb::new([1.0; 3], [f32::NAN; 3]));
+        writer.push(u32::MAX);
+        let bytes = writer.finish();
+        let mut reader = ArchiveReader::new(&bytes, KIND, 3, 77).unwrap();
+        let error = reader.bounds().unwrap_err();
+        assert!(matches!(error, LoadError::OutOfRange { .. }), "{error}");
+        let error = reader.list().unwrap_err();
+        assert!(matches!(error, LoadError::WrongLength { .. }), "{error}");
     }
 
     #[test]

@@ -1,0 +1,100 @@
+//! The rows of structures that trace packets. Their counts are those of single
+//! rays.
+
+use accel_bvh::{BvhBuilder, ObjectSplit};
+use accel_core::{
+    BuildError, BuildObserver, InPackets, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
+};
+use accel_kdtree::KdTreeBuilder;
+
+use super::{Row, Structure};
+
+pub(super) static ROWS: &[Row] = &[
+    Row {
+        name: "bvh-sweep-packet",
+        is_headline: true,
+        about: "bvh-sweep in packets of 8 rays, one vector of 8 lanes",
+        settings: "as bvh-sweep; coherent rays only",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: build_bvh::<8>,
+    },
+    Row {
+        name: "bvh-sweep-4-packet",
+        is_headline: false,
+        about: "bvh-sweep in packets of 4 rays",
+        settings: "as bvh-sweep; coherent rays only",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: build_bvh::<4>,
+    },
+    Row {
+        name: "bvh-sweep-16-packet",
+        is_headline: false,
+        about: "bvh-sweep in packets of 16 rays, two vectors side by side",
+        settings: "as bvh-sweep; coherent rays only",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: build_bvh::<16>,
+    },
+    Row {
+        name: "bvh-sweep-64-packet",
+        is_headline: false,
+        about: "bvh-sweep in groups of 64 rays, culled together (Wald, Boulos, Shirley 2007)",
+        settings: "as bvh-sweep; coherent rays only",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: build_bvh::<64>,
+    },
+    Row {
+        name: "kdtree-sweep-packet",
+        is_headline: true,
+        about: "kdtree-sweep in packets of 8 rays, one vector of 8 lanes",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<8>,
+    },
+    Row {
+        name: "kdtree-sweep-4-packet",
+        is_headline: false,
+        about: "kdtree-sweep in packets of 4 rays",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<4>,
+    },
+    Row {
+        name: "kdtree-sweep-16-packet",
+        is_headline: false,
+        about: "kdtree-sweep in packets of 16 rays, two vectors one after the other",
+        settings: "as kdtree-sweep; coherent rays only",
+        heuristic: kd_heuristic,
+        build: build_kdtree::<16>,
+    },
+];
+
+fn build_bvh<const N: usize>(
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    let builder = BvhBuilder {
+        object_split: ObjectSplit::FullSweep,
+        invalid_primitives,
+        ..BvhBuilder::default()
+    };
+    let bvh = builder.build_with(triangles, observer)?;
+    Ok(Box::new(InPackets::<_, N>(bvh)))
+}
+
+fn kd_heuristic() -> SurfaceAreaHeuristic {
+    KdTreeBuilder::default().heuristic
+}
+
+fn build_kdtree<const N: usize>(
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    let builder = KdTreeBuilder {
+        invalid_primitives,
+        ..KdTreeBuilder::default()
+    };
+    let tree = builder.build_with(triangles, observer)?;
+    Ok(Box::new(InPackets::<_, N>(tree)))
+}
