@@ -5,8 +5,10 @@ use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
+use crate::crossing::Tolerance;
 use crate::node::{Node, NodeKind};
-use crate::traversal::Tolerance;
+use crate::plane_tracking::Untracked;
+use crate::traversal::traverse;
 
 /// A general BSP tree in nodes of 20 bytes. Made by
 /// [`BspBuilder`](crate::BspBuilder); owns its primitives.
@@ -30,6 +32,9 @@ pub struct BspShape {
     pub general: usize,
     /// By the number of primitives, the number of leaves that hold as many.
     pub leaves_by_size: Vec<usize>,
+    /// Of the leaves of one primitive, those that the traversal itself can answer
+    /// (section 4.3).
+    pub bounded_leaves: usize,
 }
 
 impl<P: Primitive> BspTree<P> {
@@ -59,6 +64,10 @@ impl<P: Primitive> BspTree<P> {
                 NodeKind::Empty => 0,
                 NodeKind::Leaf(leaf) => self.stored.leaves().leaf_ids(leaf).count(),
                 NodeKind::PlanarLeaf { .. } => 1,
+                NodeKind::BoundedLeaf { .. } => {
+                    shape.bounded_leaves += 1;
+                    1
+                }
             };
             if shape.leaves_by_size.len() <= size {
                 shape.leaves_by_size.resize(size + 1, 0);
@@ -80,7 +89,7 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
         query: &mut Q,
         statistics: &mut S,
     ) {
-        crate::traversal::traverse(self, ray, query, statistics, Tolerance::SAFE);
+        traverse::<_, Untracked, _, _>(self, ray, query, statistics, Tolerance::SAFE);
     }
 
     fn bounds(&self) -> Option<Aabb> {
@@ -106,7 +115,9 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
                     outline.push_leaf(bounds, parent, std::iter::empty());
                     continue;
                 }
-                NodeKind::Leaf(leaf) | NodeKind::PlanarLeaf { leaf, .. } => {
+                NodeKind::Leaf(leaf)
+                | NodeKind::PlanarLeaf { leaf, .. }
+                | NodeKind::BoundedLeaf { leaf, .. } => {
                     let ids = self.stored.leaves().leaf_ids(leaf);
                     outline.push_leaf(bounds, parent, ids);
                     continue;

@@ -1,10 +1,12 @@
 //! Settings, and the way from primitives to a tree.
 
-use accel_core::build::{Division, TopDown, build_top_down, share_by_size};
+use accel_core::build::{Division, TopDown, build_top_down};
 use accel_core::reference::gather;
 use accel_core::{BuildBudget, BuildError, BuildObserver, InvalidPrimitives, Polygonal};
 
 use crate::BspTree;
+use crate::allowance::Allowance;
+use crate::candidates::CandidatePlanes;
 use crate::cost::BspCosts;
 use crate::pieces::Pieces;
 use crate::polytope::Polytope;
@@ -20,26 +22,53 @@ pub struct BspBuilder {
     /// Whether nodes split orthogonally to an axis are traversed by the fast path
     /// of a kd-tree. Without it every node costs as much as a general one.
     pub axis_aligned_nodes: bool,
-    /// BSP-tri (section 4.3): a leaf of one primitive keeps the primitive's plane,
-    /// and the primitive is tested only where the ray crosses that plane inside
-    /// the leaf.
-    pub planar_leaves: bool,
+    /// What leaves of one primitive know of its plane: BSP-tri (section 4.3).
+    pub single_leaves: SingleLeaves,
     /// How far primitives may reach over a plane and still be on one side of it,
     /// relative to the extent of what the node holds: 2^-24 to 2^-14. Larger
     /// values need fewer planes for surfaces that are almost flat, but traversal
     /// visits both sides more often.
     pub epsilon: f64,
+    /// Which planes are tried.
+    pub candidate_planes: CandidatePlanes,
     /// In larger nodes, of how many primitives, evenly picked, the planes are
     /// tried; axis-aligned planes are tried for all. `None` is the paper's
     /// exhaustive search. At least 1.
     pub sampled_primitives: Option<usize>,
     /// How many references all splits together may add, for each primitive;
-    /// shared out from the root down. Finite and at least 0.
+    /// shared out from the root down. A limit, rarely met: a scan needs about 3,
+    /// but corners where many primitives meet need a large share.
+    /// Finite and at least 0.
     pub max_duplication: f64,
+    /// How many nodes the tree may have, at least 1; nodes without a share of them
+    /// become leaves. `None` for as many as indices can tell apart.
+    pub max_nodes: Option<usize>,
+    /// How many candidate planes may be weighed in all, for each primitive; nodes
+    /// whose share is spent become leaves. At least 1. A closed surface of
+    /// 10,000 triangles needs less than 4,096; the limit is for scenes in which
+    /// everything straddles.
+    pub max_candidates: usize,
     /// Whether primitives without finite bounds are refused or left out.
     pub invalid_primitives: InvalidPrimitives,
     /// Limits on memory and depth.
     pub budget: BuildBudget,
+}
+
+/// What a leaf of one primitive knows of its plane. Queries are answered the same
+/// with each of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SingleLeaves {
+    /// Nothing: the primitive is tested wherever the leaf is visited.
+    #[default]
+    Plain,
+    /// The plane: the primitive is tested only where the ray crosses the plane
+    /// inside the leaf.
+    Planar,
+    /// The depth of the node that splits by the plane, where the primitive covers
+    /// the face that the plane cuts into the cell. Only
+    /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) makes use of
+    /// it.
+    Bounded,
 }
 
 impl Default for BspBuilder {
@@ -47,10 +76,13 @@ impl Default for BspBuilder {
         Self {
             costs: BspCosts::default(),
             axis_aligned_nodes: true,
-            planar_leaves: false,
+            single_leaves: SingleLeaves::default(),
             epsilon: 1.0 / (1 << 20) as f64,
+            candidate_planes: CandidatePlanes::default(),
             sampled_primitives: Some(64),
-            max_duplication: 16.0,
+            max_duplication: 64.0,
+            max_nodes: None,
+            max_candidates: 1 << 14,
             invalid_primitives: InvalidPrimitives::default(),
             budget: BuildBudget::default(),
         }
@@ -72,10 +104,20 @@ impl BspBuilder {
         }
     }
 
-    /// BSP-tri: leaves that hold one primitive keep its plane (section 4.3).
+    /// BSP-tri, every hit confirmed by the kernel (section 4.3).
     pub fn with_planar_leaves() -> Self {
         Self {
-            planar_leaves: true,
+            single_leaves: SingleLeaves::Planar,
+            ..Self::default()
+        }
+    }
+
+    /// BSP-tri as in the paper, whose hits
+    /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) takes from the
+    /// traversal (section 4.3).
+    pub fn with_bounded_leaves() -> Self {
+        Self {
+            single_leaves: SingleLeaves::Bounded,
             ..Self::default()
         }
     }
@@ -109,12 +151,13 @@ impl BspBuilder {
         let strategy = Strategy {
             builder: self,
             primitives,
+            observer,
         };
         let count = gathered.references.len();
         let task = Task {
             pieces: Pieces::new(primitives, &gathered.references),
             cell: Polytope::of_box(&bounds),
-            duplicates: (self.max_duplication * count as f64) as usize,
+            allowance: Allowance::new(self, count),
         };
         drop(gathered.references);
         let tree = build_top_down(&strategy, task, 0, observer)?;
@@ -135,11 +178,18 @@ impl BspBuilder {
         };
         self.costs.validate()?;
         self.budget.validate()?;
+        self.candidate_planes.validate()?;
         if !(1.0 / (1 << 24) as f64..=1.0 / (1 << 14) as f64).contains(&self.epsilon) {
             return reject("epsilon", self.epsilon.to_string(), "2^-24 to 2^-14");
         }
         if self.sampled_primitives == Some(0) {
             return reject("sampled_primitives", "0".into(), "1 or more");
+        }
+        if self.max_nodes == Some(0) {
+            return reject("max_nodes", "0".into(), "1 or more");
+        }
+        if self.max_candidates == 0 {
+            return reject("max_candidates", "0".into(), "1 or more");
         }
         if !(0.0..f64::INFINITY).contains(&self.max_duplication) {
             return reject(
@@ -164,13 +214,13 @@ impl BspBuilder {
 struct Task {
     pieces: Pieces,
     cell: Polytope,
-    /// How many references the subtree may still add.
-    duplicates: usize,
+    allowance: Allowance,
 }
 
 struct Strategy<'a, P> {
     builder: &'a BspBuilder,
     primitives: &'a [P],
+    observer: &'a dyn BuildObserver,
 }
 
 impl<P: Polygonal> TopDown for Strategy<'_, P> {
@@ -196,37 +246,42 @@ impl<P: Polygonal> Strategy<'_, P> {
     /// The best split that is cheaper than a leaf and cuts the cell cleanly.
     fn split(&self, task: &Task, depth: u32) -> Option<(SplitPlane, [Task; 2])> {
         let (pieces, cell) = (&task.pieces, &task.cell);
-        if pieces.len() == 0 || depth >= self.builder.budget.max_depth {
+        let may_divide = depth < self.builder.budget.max_depth && task.allowance.nodes >= 3;
+        // The recursion asks only now and then, and an exhaustive search is slow:
+        // leaves bring it there at once.
+        if pieces.len() == 0 || !may_divide || self.observer.is_cancelled() {
             return None;
         }
-        let costs = &self.builder.costs;
-        let leaf_cost = costs.heuristic(0.0).leaf_cost(pieces.len());
-        let search = Search::new(self.builder, self.primitives, pieces, cell, task.duplicates);
-        let mut splits = search.run().cheaper_than(leaf_cost);
-        splits.find_map(|split| {
+        let leaf_cost = self.builder.costs.heuristic(0.0).leaf_cost(pieces.len());
+        let search = Search::new(self.builder, self.primitives, pieces, cell, task.allowance);
+        let (splits, candidates) = search.run();
+        splits.cheaper_than(leaf_cost).find_map(|split| {
             let cells = cell.cut(&split.plane).ok()?;
-            Some((split.plane, children(task, &split, cells)))
+            let left = Allowance {
+                duplicates: task.allowance.duplicates.saturating_sub(split.straddling),
+                candidates,
+                ..task.allowance
+            };
+            Some((split.plane, children(task, &split, cells, left)))
         })
     }
 }
 
-/// Both tasks, what is left of the duplicates shared by size.
-fn children(task: &Task, split: &Split, cells: [Polytope; 2]) -> [Task; 2] {
-    let left = task.duplicates - split.straddling.min(task.duplicates);
-    let parts = task.pieces.divide(&split.plane, split.planar_in_front);
-    let shares = share_by_size(left, parts.each_ref().map(Pieces::len));
-    let [behind, in_front] = parts;
+/// Both tasks, which share what is left.
+fn children(task: &Task, split: &Split, cells: [Polytope; 2], left: Allowance) -> [Task; 2] {
+    let [behind, in_front] = task.pieces.divide(&split.plane, split.planar_in_front);
+    let allowances = left.shared([behind.len(), in_front.len()]);
     let [cell_behind, cell_in_front] = cells;
     [
         Task {
             pieces: behind,
             cell: cell_behind,
-            duplicates: shares[0],
+            allowance: allowances[0],
         },
         Task {
             pieces: in_front,
             cell: cell_in_front,
-            duplicates: shares[1],
+            allowance: allowances[1],
         },
     ]
 }

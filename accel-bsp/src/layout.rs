@@ -5,11 +5,11 @@ use accel_core::glam::Vec3;
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, BuildError, Polygonal, Primitive};
 
+use crate::candidates::planes_of;
 use crate::node::{MAX_INDEX, NODE_BYTES, Node};
 use crate::pieces::{margin, pad_of};
-use crate::search::planes_of;
 use crate::split_plane::SplitPlane;
-use crate::{BspBuilder, BspTree};
+use crate::{BspBuilder, BspTree, SingleLeaves};
 
 impl<P: Primitive> BspTree<P> {
     /// The tree over nothing that can be hit.
@@ -65,6 +65,9 @@ impl<P: Polygonal> BspTree<P> {
                 }
             };
         }
+        if builder.single_leaves == SingleLeaves::Bounded {
+            packed.mark_bounded_leaves(primitives);
+        }
         Ok(packed)
     }
 
@@ -74,7 +77,9 @@ impl<P: Polygonal> BspTree<P> {
         }
         let leaf = self.stored.leaves_mut().push_leaf(primitives, ids);
         let plane = match ids {
-            [id] if builder.planar_leaves => plane_around(&primitives[*id as usize]),
+            [id] if builder.single_leaves == SingleLeaves::Planar => {
+                plane_around(&primitives[*id as usize])
+            }
             _ => None,
         };
         plane.map_or(Node::leaf(leaf), |plane| Node::planar_leaf(leaf, &plane))

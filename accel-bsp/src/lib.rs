@@ -30,39 +30,52 @@
 //! IEEE Symposium on Interactive Ray Tracing 2008.
 //!
 //! # Reading order
-//! [`BspBuilder`] takes settings; `search` finds the best plane, with the counts
-//! of `sphere_hierarchy` and the areas of `polytope`, by the costs of `cost`;
-//! `pieces` divides what the node holds; `layout` packs the tree into the nodes of
-//! `node`; `traversal` walks them; `persistence` saves and loads.
+//! [`BspBuilder`] takes settings; `search` finds the best of the planes of
+//! `candidates`, with the counts of `ends` and `sphere_hierarchy` and the areas of
+//! `polytope`, by the costs of `cost`; `pieces` divides what the node holds and
+//! `allowance` what it may use; `layout` packs the tree into the nodes of `node`;
+//! `traversal` walks them by the `crossing` of ray and plane; `traversal_based` and
+//! `unconfirmed` are the paper's triangle test without a triangle test; `cells`
+//! walks a finished tree for its cost; `persistence` saves and loads.
 //!
 //! # Complexity
 //! A node of n primitives weighs O(n) axis-aligned planes in O(n log n) time, and
 //! the planes of at most `sampled_primitives` primitives, each counted in less
 //! than O(n) time where few primitives are near it.
 
+mod allowance;
 mod bsp_tree;
 mod builder;
+mod candidates;
+mod cells;
 mod cost;
+mod crossing;
+mod ends;
 mod layout;
 mod node;
 mod persistence;
 mod pieces;
+mod plane_tracking;
 mod polytope;
 mod search;
 mod sphere_hierarchy;
 mod split_plane;
 mod traversal;
+mod traversal_based;
+mod unconfirmed;
 
 pub use bsp_tree::{BspShape, BspTree};
-pub use builder::BspBuilder;
+pub use builder::{BspBuilder, SingleLeaves};
+pub use candidates::{CandidatePlanes, GeneralPlanes};
 pub use cost::BspCosts;
 pub use node::NODE_BYTES;
+pub use unconfirmed::UnconfirmedHit;
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
     ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, Polygonal, PreparedRay, Primitive,
-    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    Quad, Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters,
+    TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

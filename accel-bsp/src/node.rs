@@ -5,7 +5,8 @@
 //! the axis, 3 for a general plane; 1 bit for a leaf) and an index of 29 bits: of
 //! the first of two adjacent children, back then front, or of a leaf in the
 //! storage. An axis-aligned node keeps its slack in the normal's first word. A
-//! leaf of one primitive keeps there the plane of that primitive (section 4.3).
+//! leaf of one primitive keeps there the plane of that primitive, or the depth of
+//! the node that splits by it (section 4.3).
 
 use accel_core::geometry::Axis;
 use accel_core::glam::Vec3;
@@ -21,6 +22,8 @@ pub(crate) const NODE_WORDS: usize = NODE_BYTES / 4;
 const _: () = assert!(NODE_BYTES == 20);
 
 const GENERAL: u32 = 3;
+/// Among the kinds of leaves: one whose normal's first word is a depth.
+const BOUNDED: u32 = 1;
 const IS_LEAF: u32 = 1 << 2;
 const INDEX_SHIFT: u32 = 3;
 const NO_LEAF: u32 = u32::MAX >> INDEX_SHIFT;
@@ -63,6 +66,9 @@ pub(crate) enum NodeKind {
         offset: f32,
         leaf: u32,
     },
+    /// Holds one primitive, which covers the face of the cell that the node at
+    /// this depth above has cut.
+    BoundedLeaf { depth: u32, leaf: u32 },
 }
 
 impl Node {
@@ -104,6 +110,17 @@ impl Node {
         }
     }
 
+    /// A leaf of one primitive that covers the face which the node at `depth` has
+    /// cut.
+    pub(crate) fn bounded_leaf(leaf: u32, depth: u32) -> Self {
+        let plain = Self::leaf(leaf);
+        Self {
+            normal: [f32::from_bits(depth), 0.0, 0.0],
+            word: plain.word | BOUNDED,
+            ..plain
+        }
+    }
+
     fn leaf_word(leaf: u32) -> Self {
         Self {
             normal: [0.0; 3],
@@ -135,6 +152,25 @@ impl Node {
         (self.word & IS_LEAF == 0).then_some(self.word >> INDEX_SHIFT)
     }
 
+    /// The plane of an inner node.
+    pub(crate) fn plane(&self) -> Option<SplitPlane> {
+        match self.kind() {
+            NodeKind::AxisAligned {
+                axis,
+                position,
+                slack,
+                ..
+            } => {
+                let normal = axis.unit();
+                Some(SplitPlane::from_stored(Some(axis), normal, position, slack))
+            }
+            NodeKind::General { normal, offset, .. } => {
+                Some(SplitPlane::from_stored(None, normal, offset, 1.0))
+            }
+            _ => None,
+        }
+    }
+
     /// The number of a leaf that is not empty.
     pub(crate) fn leaf_number(&self) -> Option<u32> {
         let leaf = self.word >> INDEX_SHIFT;
@@ -160,6 +196,10 @@ impl Node {
                 (leaf, GENERAL) => NodeKind::PlanarLeaf {
                     normal,
                     offset,
+                    leaf,
+                },
+                (leaf, BOUNDED) => NodeKind::BoundedLeaf {
+                    depth: self.normal[0].to_bits(),
                     leaf,
                 },
                 (leaf, _) => NodeKind::Leaf(leaf),
@@ -221,6 +261,9 @@ mod tests {
                 leaf,
             };
             assert_eq!(Node::planar_leaf(leaf, &plane).kind(), expected);
+            let (depth, bounded) = (19, Node::bounded_leaf(leaf, 19));
+            assert_eq!(bounded.kind(), NodeKind::BoundedLeaf { depth, leaf });
+            assert_eq!(Node::inner(&plane, children).plane(), Some(plane));
         }
         assert_eq!(Node::empty().kind(), NodeKind::Empty);
     }

@@ -11,17 +11,22 @@ use accel_core::geometry::Side;
 use accel_core::glam::{DVec3, Vec3};
 use accel_core::reference::Reference;
 
+use crate::cells::Ancestor;
 use crate::split_plane::SplitPlane;
 
 /// How far the kernel may move a hit off the primitive, relative to the
 /// primitive's extent.
 const RELATIVE_PAD: f64 = 1.0 / (1 << 20) as f64;
 
-/// Convex polygons, each the part of a primitive inside a cell.
+/// Convex polygons, each the part of a primitive inside a cell, and hulls of
+/// primitives that are not polygons.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pieces {
     ids: Vec<u32>,
     pads: Vec<f64>,
+    /// Whether the corners are those of a polygon in order, which can be
+    /// clipped; a hull of anything else stays whole.
+    are_polygons: Vec<bool>,
     /// Where the corners of each piece begin; one more at the end.
     starts: Vec<u32>,
     corners: Vec<DVec3>,
@@ -45,9 +50,25 @@ impl Pieces {
             pieces
                 .corners
                 .extend(primitive.vertices().map(Vec3::as_dvec3));
-            pieces.finish(reference.id, pad_of(primitive));
+            let is_polygon = primitive.is_convex_polygon();
+            pieces.finish(reference.id, pad_of(primitive), is_polygon);
         }
         pieces
+    }
+
+    /// The part of one primitive in the cell below these planes, if any is left.
+    pub(crate) fn part_of<P: Polygonal>(primitive: &P, ancestors: &[Ancestor]) -> Option<Self> {
+        let bounds = primitive.bounds();
+        let whole = Self::new(
+            std::slice::from_ref(primitive),
+            &[Reference { bounds, id: 0 }],
+        );
+        ancestors.iter().try_fold(whole, |part, ancestor| {
+            let side = ancestor.is_in_front;
+            let [behind, in_front] = part.divide(&ancestor.plane, side);
+            let part = if side { in_front } else { behind };
+            (part.len() > 0).then_some(part)
+        })
     }
 
     fn with_capacity(count: usize) -> Self {
@@ -56,15 +77,17 @@ impl Pieces {
         Self {
             ids: Vec::with_capacity(count),
             pads: Vec::with_capacity(count),
+            are_polygons: Vec::with_capacity(count),
             starts,
             corners: Vec::with_capacity(4 * count),
         }
     }
 
     /// Makes the corners added last a piece.
-    fn finish(&mut self, id: u32, pad: f64) {
+    fn finish(&mut self, id: u32, pad: f64, is_polygon: bool) {
         self.ids.push(id);
         self.pads.push(pad);
+        self.are_polygons.push(is_polygon);
         self.starts.push(self.corners.len() as u32);
     }
 
@@ -113,6 +136,9 @@ impl Pieces {
                 Side::Back => parts[0].copy(self, piece),
                 Side::Front => parts[1].copy(self, piece),
                 Side::Planar => parts[usize::from(planar_in_front)].copy(self, piece),
+                Side::Straddling if !self.are_polygons[piece] => {
+                    parts.iter_mut().for_each(|part| part.copy(self, piece));
+                }
                 Side::Straddling => {
                     let overlap = margin(self.pads[piece], plane).max(0.0);
                     parts[0].clip(self, piece, |corner| {
@@ -129,7 +155,7 @@ impl Pieces {
 
     fn copy(&mut self, from: &Self, piece: usize) {
         self.corners.extend_from_slice(from.corners(piece));
-        self.finish(from.ids[piece], from.pads[piece]);
+        self.finish_as(from, piece);
     }
 
     /// Adds the part of a piece where `distance` is at most 0 (Sutherland and
@@ -149,7 +175,12 @@ impl Pieces {
             }
             (previous, s_previous) = (corner, s);
         }
-        self.finish(from.ids[piece], from.pads[piece]);
+        self.finish_as(from, piece);
+    }
+
+    /// Makes the corners added last a part of that piece.
+    fn finish_as(&mut self, from: &Self, piece: usize) {
+        self.finish(from.ids[piece], from.pads[piece], from.are_polygons[piece]);
     }
 }
 

@@ -8,16 +8,16 @@
 //! ```
 
 use accel_core::Polygonal;
-use accel_core::geometry::Axis;
+use accel_core::geometry::{Axis, Side};
 
-use crate::builder::BspBuilder;
-use crate::pieces::{Counts, Pieces, pad_of};
+use crate::allowance::Allowance;
+use crate::builder::{BspBuilder, SingleLeaves};
+use crate::candidates::{Neighbors, RELATIVE_PLACEMENT, lies_on, planes_of};
+use crate::ends::Ends;
+use crate::pieces::{Counts, Pieces};
 use crate::polytope::Polytope;
 use crate::sphere_hierarchy::SphereHierarchy;
 use crate::split_plane::SplitPlane;
-
-/// Single precision places a point of coordinate 1 within this.
-const RELATIVE_PLACEMENT: f64 = 1.0 / (1 << 22) as f64;
 
 /// A split, and what it costs.
 #[derive(Clone, Copy, Debug)]
@@ -55,8 +55,8 @@ pub(crate) struct Search<'a, P> {
     primitives: &'a [P],
     pieces: &'a Pieces,
     cell: &'a Polytope,
-    /// How many pieces may be duplicated.
-    duplicates: usize,
+    /// What is left of it; every candidate takes one.
+    allowance: Allowance,
     best: Splits,
     distances: Vec<f64>,
 }
@@ -67,36 +67,67 @@ impl<'a, P: Polygonal> Search<'a, P> {
         primitives: &'a [P],
         pieces: &'a Pieces,
         cell: &'a Polytope,
-        duplicates: usize,
+        allowance: Allowance,
     ) -> Self {
         Self {
             builder,
             primitives,
             pieces,
             cell,
-            duplicates,
+            allowance,
             best: Splits::default(),
             distances: Vec::new(),
         }
     }
 
-    pub(crate) fn run(mut self) -> Splits {
+    /// The best splits, and how many candidates are left to others.
+    pub(crate) fn run(mut self) -> (Splits, usize) {
         let [low, high] = self.pieces.bounds();
         let local = self.builder.epsilon * (high - low).max_element();
         let placement = RELATIVE_PLACEMENT * low.abs().max(high.abs()).max_element();
         for axis in Axis::ALL {
             self.sweep(axis, local.max(placement));
         }
-        let hierarchy = SphereHierarchy::new(self.pieces);
-        let stride = self.stride();
-        for piece in (0..self.pieces.len()).step_by(stride) {
-            let primitive = &self.primitives[self.pieces.ids()[piece] as usize];
-            for plane in planes_of(primitive, local) {
-                let counts = hierarchy.count(&plane);
-                self.weigh(&plane, counts);
-            }
+        let candidates = self.builder.candidate_planes;
+        if candidates
+            .general
+            .are_tried(self.pieces.len(), || self.gain())
+        {
+            self.try_general(local);
         }
-        self.best
+        (self.best, self.allowance.candidates)
+    }
+
+    /// What part of the cost of a leaf the best plane so far saves.
+    fn gain(&self) -> f64 {
+        let leaf = self
+            .builder
+            .costs
+            .heuristic(0.0)
+            .leaf_cost(self.pieces.len());
+        self.best.fixed.map_or(0.0, |split| 1.0 - split.cost / leaf)
+    }
+
+    /// Weighs the planes of the primitives.
+    fn try_general(&mut self, local: f64) {
+        let hierarchy = SphereHierarchy::new(self.pieces);
+        let neighbors = Neighbors {
+            primitives: self.primitives,
+            pieces: self.pieces,
+            stride: self.stride(),
+            slack: local,
+        };
+        let ids = self.pieces.ids().iter().step_by(neighbors.stride);
+        let primitives = ids.map(|&id| &self.primitives[id as usize]);
+        let own = primitives.flat_map(|primitive| planes_of(primitive, local));
+        let common = self.builder.candidate_planes.of_neighbors(&neighbors);
+        for plane in own.chain(common) {
+            if !self.takes_candidate() {
+                return;
+            }
+            let counts = hierarchy.count(&plane);
+            self.weigh(&plane, counts);
+        }
     }
 
     /// Every how many pieces one offers its planes. In the largest nodes fewer
@@ -115,6 +146,9 @@ impl<'a, P: Polygonal> Search<'a, P> {
     fn sweep(&mut self, axis: Axis, slack: f64) {
         let ends = Ends::new(self.pieces, axis, slack);
         for position in ends.positions() {
+            if !self.takes_candidate() {
+                return;
+            }
             let plane = SplitPlane::axis_aligned(axis, position, slack);
             let counts = ends.count(f64::from(position));
             if self.builder.axis_aligned_nodes {
@@ -125,10 +159,17 @@ impl<'a, P: Polygonal> Search<'a, P> {
         }
     }
 
+    /// Takes one candidate from the allowance, if any is left.
+    fn takes_candidate(&mut self) -> bool {
+        let left = self.allowance.candidates.checked_sub(1);
+        self.allowance.candidates = left.unwrap_or(0);
+        left.is_some()
+    }
+
     /// Keeps the plane if it is the best so far, planar pieces going where it is
     /// cheaper.
     fn weigh(&mut self, plane: &SplitPlane, counts: Counts) {
-        if counts.straddling > self.duplicates {
+        if counts.straddling > self.allowance.duplicates {
             return;
         }
         let costs = &self.builder.costs;
@@ -145,7 +186,7 @@ impl<'a, P: Polygonal> Search<'a, P> {
         if !self.may_improve(linear + least, fixed + least, is_axis_aligned) {
             return;
         }
-        let Some(areas) = self.cell.split_areas(plane, &mut self.distances) else {
+        let Some(areas) = self.split_areas(plane, counts) else {
             return;
         };
         for planar_in_front in [false, true] {
@@ -172,6 +213,34 @@ impl<'a, P: Polygonal> Search<'a, P> {
         }
     }
 
+    /// The areas of both parts, `None` if one has no volume, or is a trap.
+    ///
+    /// A part that reaches no further from the plane than its slack is visited by
+    /// every ray that comes as near. Around primitives that lie on the plane it
+    /// pays nevertheless, as a test of their plane, unless leaves have that test
+    /// anyway. Corners of others are caught there for good: their own planes,
+    /// rounded, miss the part.
+    fn split_areas(&mut self, plane: &SplitPlane, counts: Counts) -> Option<[f64; 2]> {
+        let (cell, slack) = (self.cell, plane.slack());
+        let thick = cell.split_areas(plane, slack, &mut self.distances);
+        let may_be_thin = self.builder.single_leaves == SingleLeaves::Plain;
+        if thick.is_some() || !may_be_thin || counts.straddling > 0 {
+            return thick;
+        }
+        let thin = cell.split_areas(plane, 0.0, &mut self.distances);
+        thin.filter(|_| self.are_wholly_planar(plane))
+    }
+
+    /// Whether the pieces on the plane are parts of primitives on the plane.
+    fn are_wholly_planar(&self, plane: &SplitPlane) -> bool {
+        let pieces = 0..self.pieces.len();
+        let mut planar = pieces.filter(|&piece| self.pieces.side(piece, plane) == Side::Planar);
+        planar.all(|piece| {
+            let id = self.pieces.ids()[piece];
+            lies_on(&self.primitives[id as usize], plane)
+        })
+    }
+
     fn may_improve(&self, linear: f64, fixed: f64, is_axis_aligned: bool) -> bool {
         let improves = |best: &Option<Split>, cost: f64| best.is_none_or(|best| cost < best.cost);
         improves(&self.best.linear, linear)
@@ -183,92 +252,5 @@ impl<'a, P: Polygonal> Search<'a, P> {
 fn keep_cheaper(best: &mut Option<Split>, split: Split) {
     if best.is_none_or(|best| split.cost < best.cost) {
         *best = Some(split);
-    }
-}
-
-/// The planes that a primitive offers, with at least the slack that its own
-/// place on them needs, and at least `local`.
-pub(crate) fn planes_of<P: Polygonal>(
-    primitive: &P,
-    local: f64,
-) -> impl Iterator<Item = SplitPlane> {
-    let bounds = primitive.bounds();
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    let own = 4.0 * pad_of(primitive) + RELATIVE_PLACEMENT * f64::from(largest);
-    primitive.candidate_planes().filter_map(move |plane| {
-        let distance = |point: &_| plane.signed_distance(*point).abs();
-        let point = primitive
-            .vertices()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        SplitPlane::general(&plane, point, own.max(local))
-    })
-}
-
-/// Where the pieces begin and end along an axis, sorted: the counts on both
-/// sides of a position follow by looking it up.
-struct Ends {
-    /// The largest positions that have the piece in front.
-    starts: Vec<f64>,
-    /// The smallest positions that have the piece behind.
-    ends: Vec<f64>,
-    /// Middles of pieces thinner than the slack.
-    flats: Vec<f64>,
-    /// Where the pieces begin and end themselves.
-    positions: Vec<f32>,
-}
-
-impl Ends {
-    fn new(pieces: &Pieces, axis: Axis, slack: f64) -> Self {
-        let count = pieces.len();
-        let mut ends = Self {
-            starts: Vec::with_capacity(count),
-            ends: Vec::with_capacity(count),
-            flats: Vec::new(),
-            positions: Vec::with_capacity(2 * count),
-        };
-        for piece in 0..count {
-            let along = |corner: &accel_core::glam::DVec3| corner[axis.index()];
-            let corners = pieces.corners(piece).iter().map(along);
-            let unbounded = (f64::INFINITY, f64::NEG_INFINITY);
-            let (low, high) = corners.fold(unbounded, |(low, high), x| (low.min(x), high.max(x)));
-            let reach = slack - pieces.pad(piece);
-            let (start, end) = (low + reach, high - reach);
-            if start < end {
-                ends.starts.push(start);
-                ends.ends.push(end);
-                ends.positions.extend([low as f32, high as f32]);
-            } else {
-                let middle = (0.5 * (low + high)) as f32;
-                ends.starts.push(f64::from(middle));
-                ends.ends.push(f64::from(middle));
-                ends.flats.push(f64::from(middle));
-                ends.positions.push(middle);
-            }
-        }
-        for list in [&mut ends.starts, &mut ends.ends, &mut ends.flats] {
-            list.sort_unstable_by(f64::total_cmp);
-        }
-        ends.positions.sort_unstable_by(f32::total_cmp);
-        ends.positions.dedup();
-        ends
-    }
-
-    fn positions(&self) -> impl Iterator<Item = f32> {
-        self.positions.iter().copied()
-    }
-
-    fn count(&self, position: f64) -> Counts {
-        let total = self.starts.len();
-        let not_in_front = self.starts.partition_point(|&start| start < position);
-        let not_behind = total - self.ends.partition_point(|&end| end <= position);
-        let planar = self.flats.partition_point(|&flat| flat <= position)
-            - self.flats.partition_point(|&flat| flat < position);
-        let straddling = not_in_front + not_behind + planar - total;
-        Counts {
-            behind: not_in_front - straddling,
-            in_front: not_behind - straddling,
-            planar,
-            straddling,
-        }
     }
 }

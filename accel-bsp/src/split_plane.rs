@@ -43,6 +43,16 @@ impl SplitPlane {
         }
     }
 
+    /// The plane of these stored numbers, a general one without `axis`.
+    pub(crate) fn from_stored(axis: Option<Axis>, normal: Vec3, offset: f32, slack: f32) -> Self {
+        Self {
+            axis,
+            normal,
+            offset,
+            slack,
+        }
+    }
+
     /// The axis that the plane is orthogonal to, where it is stored as such.
     pub(crate) fn axis(&self) -> Option<Axis> {
         self.axis

@@ -11,45 +11,21 @@
 //! Evaluated in double precision: tau then covers what the kernel rounds, and
 //! the traversal's own rounding vanishes beside it.
 
-use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
-use accel_core::glam::{DVec3, Vec3};
+use std::ops::ControlFlow;
+
 use accel_core::layout::LeafStorage;
-use accel_core::query::Query;
+use accel_core::query::{Hit, Query};
 use accel_core::ray::max_or_keep;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics};
 use accel_core::structure::TraversalStack;
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
+use crate::crossing::{DoubleRay, Segment, Tolerance};
 use crate::node::{NODE_BYTES, NodeKind};
+use crate::plane_tracking::{LeafAnswer, PlaneTracking};
 
-/// What tau is made of. Both parts are needed: tests show that hits are lost
-/// without either.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tolerance {
-    /// How much of the slack that the build used.
-    pub slack: f64,
-    /// How far a hit may be off, relative to how far the ray has come: the
-    /// kernel's rounding of vertices, of `t`, and the gate's clamp.
-    pub rounding: f64,
-}
-
-impl Tolerance {
-    pub(crate) const SAFE: Self = Self {
-        slack: 1.0,
-        rounding: 16.0 * UNIT_ROUNDOFF as f64,
-    };
-}
-
-/// A node put off, with the part of the ray inside.
-#[derive(Clone, Copy, Debug)]
-struct Segment {
-    node: u32,
-    near: f64,
-    far: f64,
-}
-
-pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
+pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
     ray: &PreparedRay,
     query: &mut Q,
@@ -63,15 +39,17 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     if !(near <= whole.far && near <= query.t_max()) {
         return;
     }
+    let (near, far) = (f64::from(near), f64::from(whole.far.min(f32::MAX)));
     let ray_in_double = DoubleRay::new(ray, tolerance);
     let mut stack = TraversalStack::new();
     let mut segment = Segment {
         node: 0,
-        near: f64::from(near),
-        far: f64::from(whole.far.min(f32::MAX)),
+        near,
+        far,
+        planes: T::of_ray(near, far),
     };
     loop {
-        let (crossing, children) = match tree.nodes[segment.node as usize].kind() {
+        let (crossing, children, kind) = match tree.nodes[segment.node as usize].kind() {
             NodeKind::AxisAligned {
                 axis,
                 position,
@@ -79,34 +57,20 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 children,
             } => {
                 let crossing = ray_in_double.axis_aligned(axis, position, slack, segment.far);
-                (crossing, children)
+                (crossing, children, StatisticsKind::Inner)
             }
             NodeKind::General {
                 normal,
                 offset,
                 children,
-            } => (ray_in_double.general(normal, offset, segment.far), children),
+            } => {
+                let crossing = ray_in_double.general(normal, offset, segment.far);
+                (crossing, children, StatisticsKind::General)
+            }
             leaf => {
                 statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
-                let leaf = match leaf {
-                    NodeKind::Leaf(leaf) => Some(leaf),
-                    NodeKind::PlanarLeaf {
-                        normal,
-                        offset,
-                        leaf,
-                    } => {
-                        statistics.test_planes(1);
-                        let crossing = ray_in_double.general(normal, offset, segment.far);
-                        crossing.meets(&segment).then_some(leaf)
-                    }
-                    _ => None,
-                };
-                let leaves = tree.stored.leaves();
-                if let Some(leaf) = leaf
-                    && leaves
-                        .intersect_leaf(leaf, ray, query, statistics)
-                        .is_break()
-                {
+                let tested = test_leaf(tree, leaf, &segment, &ray_in_double, query, statistics);
+                if tested.is_break() {
                     return;
                 }
                 match stack.pop_within(query.t_max()) {
@@ -116,7 +80,7 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
                 continue;
             }
         };
-        statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
+        statistics.visit_node(kind, NODE_BYTES as u32);
         statistics.test_planes(1);
         let (nearer, farther) = crossing.divide(&segment, children);
         if let Some(farther) = farther {
@@ -128,114 +92,74 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     }
 }
 
-/// The ray, and its tolerance, in double precision.
-struct DoubleRay {
-    origin: DVec3,
-    direction: DVec3,
-    reciprocal: DVec3,
-    /// The rounding of a hit per unit of `t`.
-    rounding: DVec3,
-    slack: f64,
+/// Offers the hits in a leaf, without asking the kernel where the traversal knows
+/// better.
+#[inline]
+fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
+    tree: &BspTree<P>,
+    leaf: NodeKind,
+    segment: &Segment<T>,
+    ray_in_double: &DoubleRay<'_>,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
+    let ray = ray_in_double.ray;
+    let leaf = match leaf {
+        NodeKind::Leaf(leaf) => leaf,
+        NodeKind::PlanarLeaf {
+            normal,
+            offset,
+            leaf,
+        } => {
+            statistics.test_planes(1);
+            let crossing = ray_in_double.general(normal, offset, segment.far);
+            if !crossing.meets(segment) {
+                return ControlFlow::Continue(());
+            }
+            leaf
+        }
+        NodeKind::BoundedLeaf { depth, leaf } => match segment.planes.leaf_answer(depth) {
+            LeafAnswer::AskKernel => leaf,
+            LeafAnswer::Hit(t) => {
+                statistics.test_planes(1);
+                return offer_unconfirmed(tree, leaf, t, ray, query);
+            }
+            LeafAnswer::Miss => {
+                statistics.test_planes(1);
+                return ControlFlow::Continue(());
+            }
+        },
+        _ => return ControlFlow::Continue(()),
+    };
+    let leaves = tree.stored.leaves();
+    leaves.intersect_leaf(leaf, ray, query, statistics)
 }
 
-/// A ray's signed distance from a plane: `start + t * slope`.
-struct Crossing {
-    start: f64,
-    slope: f64,
-    /// Where it is zero; of no meaning where the slope is.
-    at: f64,
-    tau: f64,
-    /// How much of `t` tau is worth.
-    reach: f64,
-}
-
-impl DoubleRay {
-    fn new(ray: &PreparedRay, tolerance: Tolerance) -> Self {
-        let direction = ray.direction().as_dvec3();
-        Self {
-            origin: ray.origin().as_dvec3(),
-            direction,
-            reciprocal: direction.recip(),
-            rounding: direction.abs() * tolerance.rounding,
-            slack: tolerance.slack,
-        }
-    }
-
-    /// The fast path of a kd-tree: one subtraction and two multiplications.
-    #[inline]
-    fn axis_aligned(&self, axis: Axis, position: f32, slack: f32, far: f64) -> Crossing {
-        let index = axis.index();
-        let start = self.origin[index] - f64::from(position);
-        let tau = f64::from(slack) * self.slack + self.rounding[index] * far;
-        let reciprocal = self.reciprocal[index];
-        Crossing {
-            start,
-            slope: self.direction[index],
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
-        }
-    }
-
-    #[inline]
-    fn general(&self, normal: Vec3, offset: f32, far: f64) -> Crossing {
-        let normal = normal.as_dvec3();
-        let start = normal.dot(self.origin) - f64::from(offset);
-        let slope = normal.dot(self.direction);
-        let tau = self.slack + normal.abs().dot(self.rounding) * far;
-        let reciprocal = 1.0 / slope;
-        Crossing {
-            start,
-            slope,
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
-        }
-    }
-}
-
-impl Crossing {
-    /// Signed distances of both ends.
-    #[inline]
-    fn ends(&self, segment: &Segment) -> [f64; 2] {
-        [segment.near, segment.far].map(|t| self.start + t * self.slope)
-    }
-
-    /// Whether the ray comes within tau of the plane.
-    #[inline]
-    fn meets(&self, segment: &Segment) -> bool {
-        let [s0, s1] = self.ends(segment);
-        !(s0 > self.tau && s1 > self.tau || s0 < -self.tau && s1 < -self.tau)
-    }
-
-    /// The child that the ray enters first, and the other one if it enters both.
-    #[inline]
-    fn divide(&self, segment: &Segment, back: u32) -> (Segment, Option<Segment>) {
-        let [s0, s1] = self.ends(segment);
-        let of = |node| Segment { node, ..*segment };
-        if s0 > self.tau && s1 > self.tau {
-            return (of(back + 1), None);
-        }
-        if s0 < -self.tau && s1 < -self.tau {
-            return (of(back), None);
-        }
-        let [mut nearer, mut farther] = if self.slope < 0.0 {
-            [of(back + 1), of(back)]
-        } else {
-            [of(back), of(back + 1)]
-        };
-        // Where the whole segment is within tau, no division by a tiny slope.
-        if (s1 - s0).abs() > self.tau {
-            nearer.far = nearer.far.min(self.at + self.reach);
-            farther.near = farther.near.max(self.at - self.reach);
-        }
-        (nearer, Some(farther))
+/// Offers a hit of a leaf's one primitive that the traversal has found.
+fn offer_unconfirmed<P: Primitive, Q: Query>(
+    tree: &BspTree<P>,
+    leaf: u32,
+    t: f64,
+    ray: &PreparedRay,
+    query: &mut Q,
+) -> ControlFlow<()> {
+    let t = t as f32;
+    let id = tree.stored.leaves().leaf_ids(leaf).next();
+    match id {
+        Some(id) if (ray.t_min()..=query.t_max()).contains(&t) => query.offer(&Hit {
+            t,
+            u: 0.0,
+            v: 0.0,
+            id,
+        }),
+        _ => ControlFlow::Continue(()),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plane_tracking::Untracked;
     use crate::{BspBuilder, InvalidPrimitives};
     use accel_core::testing::agreement::oracle;
     use accel_core::testing::{families, rays};
@@ -254,7 +178,7 @@ mod tests {
         let closest = |ray: &RaySegment| {
             let ray = PreparedRay::new(ray)?;
             let mut query = ClosestHit::new(&ray);
-            traverse(&tree, &ray, &mut query, &mut (), tolerance);
+            traverse::<_, Untracked, _, _>(&tree, &ray, &mut query, &mut (), tolerance);
             query.best()
         };
         let differs = |ray: &&RaySegment| closest(ray) != oracle.closest_hit(*ray);

@@ -18,7 +18,7 @@ fn check(effort: &Effort, builders: &[BspBuilder]) -> Checked {
 }
 
 const EFFORT: Effort = Effort {
-    seeds: 3,
+    seeds: 2,
     triangles: 300,
     rays: 200,
     full_size_rays: 0,

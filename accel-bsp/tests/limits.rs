@@ -1,10 +1,13 @@
 //! Settings, budgets, cancelling, empty scenes, determinism.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use accel_bsp::{
     AccelerationStructure, BspBuilder, BspCosts, BspTree, BuildBudget, BuildError, BuildObserver,
-    InvalidPrimitives, RaySegment, Triangle,
+    CandidatePlanes, GeneralPlanes, InvalidPrimitives, NODE_BYTES, RaySegment, Triangle,
 };
-use accel_core::testing::families;
+use accel_core::testing::agreement::oracle;
+use accel_core::testing::{families, rays};
 
 fn scene(count: usize) -> Vec<Triangle> {
     let family = families::find("soup-mixed-sizes").expect("the family is there");
@@ -55,6 +58,30 @@ fn settings_out_of_range_are_named() {
             "sampled_primitives",
             BspBuilder {
                 sampled_primitives: Some(0),
+                ..default
+            },
+        ),
+        (
+            "general",
+            BspBuilder {
+                candidate_planes: CandidatePlanes {
+                    general: GeneralPlanes::BelowGain(f64::NAN),
+                    ..CandidatePlanes::default()
+                },
+                ..default
+            },
+        ),
+        (
+            "max_nodes",
+            BspBuilder {
+                max_nodes: Some(0),
+                ..default
+            },
+        ),
+        (
+            "max_candidates",
+            BspBuilder {
+                max_candidates: 0,
                 ..default
             },
         ),
@@ -119,6 +146,102 @@ fn budgets_bound_bytes_depth_and_references() {
         let limit = 2000 + (2000.0 * max_duplication) as usize;
         assert!((2000..=limit).contains(&references), "{references}");
     }
+}
+
+/// Whether the tree answers as brute force does.
+fn agrees(tree: &BspTree<Triangle>, triangles: &[Triangle]) -> bool {
+    let oracle = oracle(triangles).unwrap();
+    let rays = rays::mixed(triangles, 3, 200);
+    let mut rays = rays.iter();
+    rays.all(|ray| tree.closest_hit(ray) == oracle.closest_hit(ray))
+}
+
+#[test]
+fn the_number_of_nodes_is_bounded_by_larger_leaves() {
+    let triangles = scene(1000);
+    let mut counts = Vec::new();
+    for max_nodes in [1, 2, 3, 4, 100, 1001] {
+        let builder = BspBuilder {
+            max_nodes: Some(max_nodes),
+            ..BspBuilder::default()
+        };
+        let tree = builder.build(&triangles).unwrap();
+        let nodes = tree.node_bytes() / NODE_BYTES;
+        assert!(nodes <= max_nodes, "{nodes} of {max_nodes}");
+        assert!(agrees(&tree, &triangles), "{max_nodes}");
+        counts.push(nodes);
+    }
+    assert!(
+        counts[..4] == [1, 1, 3, 3] && counts[4] > 60 && counts[5] > 600,
+        "{counts:?}"
+    );
+}
+
+#[test]
+fn the_number_of_candidates_is_bounded_by_larger_leaves() {
+    let family = families::find("straddling-through-center").unwrap();
+    let triangles = family.scene(1, 500);
+    let nodes = |max_candidates| {
+        let builder = BspBuilder {
+            max_candidates,
+            ..BspBuilder::default()
+        };
+        let tree = builder.build(&triangles).unwrap();
+        assert!(agrees(&tree, &triangles), "{max_candidates}");
+        tree.node_bytes() / NODE_BYTES
+    };
+    let counts = [1, 30, 1000].map(nodes);
+    // The root alone has ten planes for each triangle.
+    assert!(
+        counts[0] <= 3 && counts[0] < counts[1] && counts[1] < counts[2],
+        "{counts:?}"
+    );
+}
+
+/// Watches how often it is asked, and says yes from a certain time on.
+struct CancelAfter {
+    asked: AtomicUsize,
+    limit: usize,
+}
+
+impl BuildObserver for CancelAfter {
+    fn is_cancelled(&self) -> bool {
+        self.asked.fetch_add(1, Ordering::Relaxed) >= self.limit
+    }
+}
+
+#[test]
+fn a_cancelled_build_searches_no_more_nodes() {
+    let exhaustive = BspBuilder {
+        sampled_primitives: None,
+        ..BspBuilder::default()
+    };
+    let observer = CancelAfter {
+        asked: AtomicUsize::new(0),
+        limit: 20,
+    };
+    let result = exhaustive.build_with(&scene(2000), &observer);
+    assert_eq!(result.unwrap_err(), BuildError::Cancelled);
+    // What was waiting on the stack becomes leaves.
+    let asked = observer.asked.into_inner();
+    assert!(asked < 20 + BuildBudget::DEEPEST as usize, "{asked}");
+}
+
+#[test]
+fn progress_ends_with_all_references() {
+    #[derive(Default)]
+    struct Watch(AtomicUsize);
+    impl BuildObserver for Watch {
+        fn progress(&self, done: usize, total: usize) {
+            assert!(done <= total);
+            self.0.fetch_max(done, Ordering::Relaxed);
+        }
+    }
+    let watch = Watch::default();
+    let tree = BspBuilder::default()
+        .build_with(&scene(6000), &watch)
+        .unwrap();
+    assert_eq!(watch.0.into_inner(), tree.outline().ids.len());
 }
 
 #[test]

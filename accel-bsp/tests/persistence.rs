@@ -34,6 +34,19 @@ fn a_loaded_tree_has_the_same_bytes_and_answers() {
 }
 
 #[test]
+fn marked_leaves_are_saved_too() {
+    let triangles = scene("closed-icosphere", 300);
+    let tree = BspBuilder::with_bounded_leaves().build(&triangles).unwrap();
+    let loaded = BspTree::from_bytes(&tree.to_bytes(), &triangles).unwrap();
+    assert_eq!(loaded.to_bytes(), tree.to_bytes());
+    assert!(tree.shape().bounded_leaves > 0);
+    for ray in rays::mixed(&triangles, 4, 500) {
+        let hit = tree.closest_hit_unconfirmed(&ray);
+        assert_eq!(loaded.closest_hit_unconfirmed(&ray), hit, "{ray:?}");
+    }
+}
+
+#[test]
 fn a_tree_of_another_scene_is_refused() {
     let triangles = scene("soup-uniform", 100);
     let bytes = builder().build(&triangles).unwrap().to_bytes();

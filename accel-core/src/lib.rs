@@ -27,7 +27,7 @@ pub use brute_force::BruteForce;
 pub use build::{BuildBudget, BuildObserver, InvalidPrimitives};
 pub use error::{BuildError, RefitError, ValidationError};
 pub use geometry::Aabb;
-pub use primitive::{Clip, Polygonal, Primitive, Sphere, Triangle};
+pub use primitive::{Clip, Polygonal, Primitive, Quad, Sphere, Triangle};
 pub use query::{AllHits, AnyHit, ClosestHit, Filtered, Hit, Query};
 pub use ray::{PreparedRay, Ray, RaySegment};
 pub use split::SurfaceAreaHeuristic;

@@ -1,6 +1,7 @@
 //! What a structure is built over.
 
 mod mesh;
+mod quad;
 mod sphere;
 mod surface;
 mod triangle;
@@ -16,6 +17,7 @@ use crate::ray::{PacketVector, PreparedRay};
 use crate::simd::Lanes;
 
 pub use mesh::{MeshError, triangles_of_mesh};
+pub use quad::Quad;
 pub use sphere::Sphere;
 pub use surface::{Face, SurfacePoint};
 pub use triangle::Triangle;
@@ -175,6 +177,17 @@ pub trait Polygonal: Primitive {
     /// The corners of a convex hull that contains the primitive: for a convex
     /// polygon its corners in order.
     fn vertices(&self) -> impl Iterator<Item = Vec3>;
+
+    /// Whether the primitive is the convex polygon of its vertices, as far as
+    /// single precision tells. Only then may a part of it be cut out by cutting
+    /// the polygon, and a point of its plane between its edges be taken for a
+    /// point of it.
+    ///
+    /// The default, no, is right for every type; a polygon that says yes makes
+    /// better trees.
+    fn is_convex_polygon(&self) -> bool {
+        false
+    }
 
     /// Planes worth splitting a cell by that follow from this primitive alone,
     /// besides those tangent to its box. For a triangle: its face plane and the

@@ -8,6 +8,9 @@ use crate::layout::LeafOrdered;
 use crate::query::Hit;
 use crate::ray::PreparedRay;
 
+/// Single precision places a point of coordinate 1 within this.
+const PLACEMENT: f64 = 1.0 / (1 << 22) as f64;
+
 /// A sphere. Hits carry `u = v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
@@ -77,15 +80,36 @@ impl Primitive for Sphere {
 impl Clip for Sphere {}
 
 impl Polygonal for Sphere {
-    /// The corners of the sphere's box.
+    /// The 24 corners of the solid around the sphere whose faces are tangent to it
+    /// along the axes and the diagonals: a truncated octahedron.
     fn vertices(&self) -> impl Iterator<Item = Vec3> {
-        let bounds = self.bounds();
-        (0..8).map(move |corner| bounds.corner([0, 1, 2].map(|axis| corner >> axis & 1 == 1)))
+        let center = self.center.as_dvec3();
+        // Covers what rounding the corners takes off the solid.
+        let margin = PLACEMENT * (f64::from(self.radius) + center.abs().max_element());
+        let long = f64::from(self.radius) + margin;
+        let short = long * (3.0_f64.sqrt() - 1.0);
+        let corner = move |axis: usize, other: usize, signs: usize| {
+            let sign = |bit: usize| if signs >> bit & 1 == 1 { -1.0 } else { 1.0 };
+            let mut offset = DVec3::ZERO;
+            offset[axis] = sign(0) * long;
+            offset[other] = sign(1) * short;
+            (center + offset).as_vec3().clamp(Vec3::MIN, Vec3::MAX)
+        };
+        (0..24).map(move |index| {
+            let (axis, other, signs) = (index % 3, (index + 1 + index / 3 % 2) % 3, index / 6);
+            corner(axis, other, signs)
+        })
     }
 
-    /// None of its own: the planes tangent to its box are as good as any.
+    /// Tangent along the diagonals (Ize, Wald and Parker 2008, section 6.1, take
+    /// random ones).
     fn candidate_planes(&self) -> impl Iterator<Item = Plane> {
-        std::iter::empty()
+        let Self { center, radius } = *self;
+        (0..8).map(move |octant: u32| {
+            let sign = |bit: u32| if octant >> bit & 1 == 1 { -1.0 } else { 1.0 };
+            let normal = Vec3::new(sign(0), sign(1), sign(2)).normalize();
+            Plane::through(center + radius * normal, normal)
+        })
     }
 
     fn signed_range(&self, plane: &Plane) -> (f64, f64) {
@@ -120,6 +144,33 @@ mod tests {
     fn negative_and_non_finite_radii_are_invalid() {
         for radius in [-1.0, f32::NAN, f32::INFINITY] {
             assert!(!Sphere::new([0.0; 3], radius).bounds().is_valid());
+        }
+    }
+
+    #[test]
+    fn the_hull_is_outside_the_sphere_and_its_faces_are_tangent() {
+        for (center, radius) in [([0.0; 3], 1.0), ([1e3, -7.0, 0.5], 0.01), ([1e8; 3], 2e6)] {
+            let sphere = Sphere::new(center, radius);
+            let corners: Vec<Vec3> = sphere.vertices().collect();
+            let distinct = corners
+                .iter()
+                .enumerate()
+                .all(|(index, corner)| corners[index + 1..].iter().all(|other| other != corner));
+            assert!(corners.len() == 24 && distinct);
+            let faces = Vec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+            let faces = faces.chain(sphere.candidate_planes().map(|plane| plane.normal));
+            let tolerance = 1e-6 * (f64::from(radius) + sphere.center.abs().max_element() as f64);
+            for normal in faces {
+                let normal = normal.as_dvec3().normalize();
+                let heights = corners.iter().map(|corner| {
+                    normal.dot(corner.as_dvec3() - sphere.center.as_dvec3()) - f64::from(radius)
+                });
+                let highest = heights.fold(f64::NEG_INFINITY, f64::max);
+                assert!(
+                    (0.0..=tolerance).contains(&highest),
+                    "{highest} {tolerance}"
+                );
+            }
         }
     }
 }

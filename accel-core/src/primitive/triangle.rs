@@ -129,6 +129,10 @@ impl Polygonal for Triangle {
         Self::vertices(self).into_iter()
     }
 
+    fn is_convex_polygon(&self) -> bool {
+        true
+    }
+
     fn candidate_planes(&self) -> impl Iterator<Item = Plane> {
         let normal = self.normal();
         let edges = [(self.a, self.b), (self.b, self.c), (self.c, self.a)];
@@ -142,7 +146,7 @@ impl Polygonal for Triangle {
 
 /// The unit normal of the plane through an edge, orthogonal to the face; zero
 /// where the edge has no length.
-fn edge_normal(from: Vec3, to: Vec3, face_normal: Vec3) -> Vec3 {
+pub(super) fn edge_normal(from: Vec3, to: Vec3, face_normal: Vec3) -> Vec3 {
     let edge = to.as_dvec3() - from.as_dvec3();
     edge.cross(face_normal.as_dvec3())
         .normalize_or_zero()

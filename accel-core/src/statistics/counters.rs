@@ -52,6 +52,8 @@ pub struct TraversalCounters {
     pub nodes: Count,
     /// Of these, leaves.
     pub leaves: Count,
+    /// Of these, nodes with planes that are not orthogonal to an axis.
+    pub general_nodes: Count,
     /// Of these, splitting nodes.
     pub splitting_nodes: Count,
     /// Of these, carving nodes.
@@ -85,10 +87,11 @@ impl TraversalCounters {
         }
     }
 
-    fn counts(&mut self) -> [&mut Count; 8] {
+    fn counts(&mut self) -> [&mut Count; 9] {
         [
             &mut self.nodes,
             &mut self.leaves,
+            &mut self.general_nodes,
             &mut self.splitting_nodes,
             &mut self.carving_nodes,
             &mut self.box_tests,
@@ -106,6 +109,7 @@ impl TraversalStatistics for TraversalCounters {
         self.node_bytes.add(bytes);
         match kind {
             NodeKind::Inner => {}
+            NodeKind::General => self.general_nodes.add(1),
             NodeKind::Leaf => self.leaves.add(1),
             NodeKind::Splitting => self.splitting_nodes.add(1),
             NodeKind::Carving => self.carving_nodes.add(1),

@@ -15,6 +15,8 @@ pub use tree::{BytesByPart, TreeStatistics};
 pub enum NodeKind {
     /// Has children and decides between them.
     Inner,
+    /// Of a BSP tree: an inner node whose plane is not orthogonal to an axis.
+    General,
     /// References primitives.
     Leaf,
     /// Of a dual-split tree: separates two children by two planes.

@@ -89,7 +89,7 @@ impl TreeStatistics {
                 }
                 self.leaf_histogram[references] += 1;
             }
-            NodeKind::Inner => self.inner_nodes += 1,
+            NodeKind::Inner | NodeKind::General => self.inner_nodes += 1,
             NodeKind::Splitting => {
                 self.inner_nodes += 1;
                 self.splitting_nodes += 1;

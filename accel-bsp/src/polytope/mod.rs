@@ -10,10 +10,15 @@
 //!     refuse the cut if they do not close, or if V - E + F is not 2
 //! ```
 
+mod cut;
+
 use accel_core::Aabb;
 use accel_core::glam::DVec3;
 
+use self::cut::Cut;
 use crate::split_plane::SplitPlane;
+
+pub(crate) use self::cut::CutError;
 
 /// A convex polytope: corners, and faces as loops of them, counter-clockwise
 /// seen from outside.
@@ -22,24 +27,16 @@ pub(crate) struct Polytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
     area: f64,
+    /// How many planes have cut it: the depth of its node.
+    cuts: u32,
 }
 
 #[derive(Clone, Debug)]
 struct Face {
     corners: Vec<u32>,
     area: f64,
-}
-
-/// Why a polytope was not cut: rounding left a part that is not closed, or the
-/// plane does not pass through the inside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CutError {
-    /// One side holds no volume.
-    Misses,
-    /// The edges on the plane are not one closed loop.
-    OpenCap,
-    /// V - E + F is not 2.
-    Euler,
+    /// Which of the cuts made it, if the box did not.
+    made_by: Option<u32>,
 }
 
 /// Corners nearer to a plane than this, relative to the terms of the signed
@@ -59,15 +56,16 @@ impl Polytope {
             [0, 2, 3, 1],
             [4, 5, 7, 6],
         ];
-        Self::new(corners, loops.map(Vec::from).into())
+        Self::new(corners, loops.map(|face| (Vec::from(face), None)).into(), 0)
     }
 
-    fn new(corners: Vec<DVec3>, loops: Vec<Vec<u32>>) -> Self {
+    fn new(corners: Vec<DVec3>, loops: Vec<(Vec<u32>, Option<u32>)>, cuts: u32) -> Self {
         let faces: Vec<Face> = loops
             .into_iter()
-            .map(|loop_corners| Face {
+            .map(|(loop_corners, made_by)| Face {
                 area: loop_area(loop_corners.iter().map(|&index| corners[index as usize])),
                 corners: loop_corners,
+                made_by,
             })
             .collect();
         let area = faces.iter().map(|face| face.area).sum();
@@ -75,7 +73,20 @@ impl Polytope {
             corners,
             faces,
             area,
+            cuts,
         }
+    }
+
+    /// The faces that cuts have made, by the number of the cut from 0, with their
+    /// corners.
+    pub(crate) fn cut_faces(&self) -> impl Iterator<Item = (u32, impl Iterator<Item = DVec3>)> {
+        self.faces.iter().filter_map(|face| {
+            let corners = face
+                .corners
+                .iter()
+                .map(|&index| self.corners[index as usize]);
+            Some((face.made_by?, corners))
+        })
     }
 
     /// The surface area; of a flat cell both sides count.
@@ -90,16 +101,18 @@ impl Polytope {
     }
 
     /// The surface areas of the parts behind and in front of `plane`, without
-    /// making them; `None` if either is empty.
+    /// making them; `None` if either is empty, or reaches no further than
+    /// `thickness` from the plane, in units of its signed distance.
     ///
     /// The cap needs no linking here: the area of a closed polygon is half the
     /// sum of the cross products of its edges, in any order.
     pub(crate) fn split_areas(
         &self,
         plane: &SplitPlane,
+        thickness: f64,
         distances: &mut Vec<f64>,
     ) -> Option<[f64; 2]> {
-        self.classify(plane, distances).ok()?;
+        self.classify(plane, thickness, distances).ok()?;
         let (mut behind, mut in_front, mut cap) = (0.0, 0.0, DVec3::ZERO);
         let center = self.corners[0];
         for face in &self.faces {
@@ -146,20 +159,20 @@ impl Polytope {
     /// The parts behind and in front of `plane`.
     pub(crate) fn cut(&self, plane: &SplitPlane) -> Result<[Self; 2], CutError> {
         let mut distances = Vec::with_capacity(self.corners.len());
-        self.classify(plane, &mut distances)?;
-        let mut cut = Cut {
-            polytope: self,
-            distances: &distances,
-            corners: self.corners.clone(),
-            crossings: Vec::new(),
-        };
+        self.classify(plane, 0.0, &mut distances)?;
+        let mut cut = Cut::new(self, &distances);
         let behind = cut.side(-1.0)?;
         let in_front = cut.side(1.0)?;
         Ok([behind, in_front])
     }
 
     /// The signed distance of each corner, exactly zero for those on the plane.
-    fn classify(&self, plane: &SplitPlane, distances: &mut Vec<f64>) -> Result<(), CutError> {
+    fn classify(
+        &self,
+        plane: &SplitPlane,
+        thickness: f64,
+        distances: &mut Vec<f64>,
+    ) -> Result<(), CutError> {
         distances.clear();
         let absolute = plane.normal().abs();
         distances.extend(self.corners.iter().map(|&corner| {
@@ -167,8 +180,8 @@ impl Polytope {
             let noise = ON_PLANE * (absolute.dot(corner.abs()) + plane.offset().abs());
             if s.abs() <= noise { 0.0 } else { s }
         }));
-        let has = |is_there: fn(&f64) -> bool| distances.iter().any(is_there);
-        if has(|&s| s < 0.0) && has(|&s| s > 0.0) {
+        let is_behind = distances.iter().any(|&s| s < -thickness);
+        if is_behind && distances.iter().any(|&s| s > thickness) {
             Ok(())
         } else {
             Err(CutError::Misses)
@@ -184,123 +197,6 @@ impl Polytope {
         };
         let (low, high) = (self.corners[low as usize], self.corners[high as usize]);
         low + (high - low) * (s_low / (s_low - s_high))
-    }
-}
-
-/// A cut under way: corners of the polytope and the crossings found so far.
-struct Cut<'a> {
-    polytope: &'a Polytope,
-    distances: &'a [f64],
-    corners: Vec<DVec3>,
-    /// An edge, smaller corner first, and the corner where it crosses.
-    crossings: Vec<([u32; 2], u32)>,
-}
-
-impl Cut<'_> {
-    /// The part where the signed distance has this sign.
-    fn side(&mut self, sign: f64) -> Result<Polytope, CutError> {
-        let mut loops = Vec::with_capacity(self.polytope.faces.len() + 1);
-        let mut cap_edges = Vec::new();
-        for face in &self.polytope.faces {
-            let kept = self.clip(&face.corners, sign);
-            if kept.iter().all(|&index| self.is_on(index)) {
-                continue;
-            }
-            for (position, &from) in kept.iter().enumerate() {
-                let to = kept[(position + 1) % kept.len()];
-                if self.is_on(from) && self.is_on(to) {
-                    cap_edges.push([to, from]);
-                }
-            }
-            loops.push(kept);
-        }
-        loops.push(link(&cap_edges)?);
-        let part = self.renumbered(loops);
-        part.check_euler()?;
-        Ok(part)
-    }
-
-    fn is_on(&self, index: u32) -> bool {
-        self.distances.get(index as usize).is_none_or(|&s| s == 0.0)
-    }
-
-    fn clip(&mut self, face: &[u32], sign: f64) -> Vec<u32> {
-        let mut kept = Vec::with_capacity(face.len() + 1);
-        for (position, &from) in face.iter().enumerate() {
-            let to = face[(position + 1) % face.len()];
-            let (s_from, s_to) = (self.distances[from as usize], self.distances[to as usize]);
-            if s_from * sign >= 0.0 {
-                kept.push(from);
-            }
-            if s_from * s_to < 0.0 {
-                kept.push(self.shared_crossing(from, to));
-            }
-        }
-        kept
-    }
-
-    fn shared_crossing(&mut self, from: u32, to: u32) -> u32 {
-        let edge = [from.min(to), from.max(to)];
-        if let Some((_, corner)) = self.crossings.iter().find(|(known, _)| *known == edge) {
-            return *corner;
-        }
-        let s = |index: u32| self.distances[index as usize];
-        let point = self.polytope.crossing(from, to, s(from), s(to));
-        let corner = self.corners.len() as u32;
-        self.corners.push(point);
-        self.crossings.push((edge, corner));
-        corner
-    }
-
-    /// The polytope of these faces, without corners that none of them uses.
-    fn renumbered(&self, mut loops: Vec<Vec<u32>>) -> Polytope {
-        let mut numbers = vec![u32::MAX; self.corners.len()];
-        let mut corners = Vec::new();
-        for index in loops.iter_mut().flatten() {
-            let number = &mut numbers[*index as usize];
-            if *number == u32::MAX {
-                *number = corners.len() as u32;
-                corners.push(self.corners[*index as usize]);
-            }
-            *index = *number;
-        }
-        Polytope::new(corners, loops)
-    }
-}
-
-impl Polytope {
-    fn check_euler(&self) -> Result<(), CutError> {
-        let ends: usize = self.faces.iter().map(|face| face.corners.len()).sum();
-        let is_simple = self.faces.iter().all(|face| face.corners.len() >= 3);
-        let closes =
-            self.corners.len() + self.faces.len() == ends / 2 + 2 && ends.is_multiple_of(2);
-        if is_simple && closes && self.corners.len() >= 4 {
-            Ok(())
-        } else {
-            Err(CutError::Euler)
-        }
-    }
-}
-
-/// Links edges to the one loop that they form.
-fn link(edges: &[[u32; 2]]) -> Result<Vec<u32>, CutError> {
-    let &[start, mut end] = edges.first().ok_or(CutError::OpenCap)?;
-    let mut linked = vec![start];
-    while end != start {
-        if linked.len() > edges.len() {
-            return Err(CutError::OpenCap);
-        }
-        linked.push(end);
-        let mut followers = edges.iter().filter(|edge| edge[0] == end);
-        match (followers.next(), followers.next()) {
-            (Some(edge), None) => end = edge[1],
-            _ => return Err(CutError::OpenCap),
-        }
-    }
-    if linked.len() == edges.len() && linked.len() >= 3 {
-        Ok(linked)
-    } else {
-        Err(CutError::OpenCap)
     }
 }
 
@@ -389,7 +285,7 @@ mod tests {
             let [low, high] = cell.bounds();
             let at = low + (high - low) * f64::from(next());
             let plane = through(at.as_vec3().to_array(), normal);
-            let Some(areas) = cell.split_areas(&plane, &mut distances) else {
+            let Some(areas) = cell.split_areas(&plane, 0.0, &mut distances) else {
                 continue;
             };
             let parts = cell.cut(&plane).unwrap();

@@ -1,0 +1,54 @@
+//! What trees are like.
+
+use accel_bsp::{BspBuilder, BspCosts, BspShape};
+use accel_core::testing::families;
+
+fn shape(family: &str, builder: &BspBuilder) -> BspShape {
+    let family = families::find(family).expect(family);
+    builder.build(&family.scene(1, 5000)).unwrap().shape()
+}
+
+/// Table 3 of the paper: triangles of scans are told apart almost all.
+#[test]
+fn leaves_of_a_scan_hold_one_triangle_and_never_more_than_four() {
+    for builder in [BspBuilder::default(), BspBuilder::with_planar_leaves()] {
+        let leaves = shape("closed-bumpy-sphere", &builder).leaves_by_size;
+        let filled: usize = leaves[1..].iter().sum();
+        assert!(100 * leaves[1] >= 98 * filled, "{leaves:?}");
+        assert!(leaves.len() <= 5, "{leaves:?}");
+    }
+}
+
+#[test]
+fn the_cost_of_a_lone_leaf_and_of_a_split_are_those_worked_out_by_hand() {
+    let triangle = |x: f32| {
+        let corners = [[x, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 0.0, 1.0]];
+        accel_bsp::Triangle::new(corners[0], corners[1], corners[2])
+    };
+    let costs = BspCosts::default();
+    let lone = BspBuilder {
+        max_duplication: 0.0,
+        ..BspBuilder::default()
+    };
+    let cost = |count: usize, depth: u32| {
+        let triangles: Vec<_> = (0..count)
+            .map(|index| triangle(3.0 * index as f32))
+            .collect();
+        let mut builder = lone;
+        builder.budget.max_depth = depth;
+        let tree = builder.build(&triangles).unwrap();
+        tree.surface_area_cost(&costs).unwrap()
+    };
+    assert_eq!(cost(1, 0), costs.intersection);
+    // The box is 4 by 1 by 1 and the plane at 1 or 3 leaves an empty part, or cuts
+    // one triangle off.
+    let split = cost(2, 1);
+    let cut_off = [1.0_f64, 3.0].map(|x| {
+        let area = |length: f64| 2.0 * (2.0 * length + 1.0);
+        costs.axis_aligned + costs.intersection * (area(x) + area(4.0 - x)) / area(4.0)
+    });
+    assert!(
+        cut_off.iter().any(|cost| (cost - split).abs() < 1e-4),
+        "{split} {cut_off:?}"
+    );
+}
