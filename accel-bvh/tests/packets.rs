@@ -1,10 +1,12 @@
 //! Packets of every width, at every level of vectors that the machine has,
 //! against brute force, bit for bit.
 
+use std::ops::ControlFlow;
+
 use accel_bvh::accel_core::simd::SimdLevel;
 use accel_bvh::{
     AccelerationStructure, AllHits, AnyHit, Bvh, BvhBuilder, ClosestHit, Filtered, Hit,
-    InvalidPrimitives, ObjectSplit, PacketTraversal, PreparedRay, RaySegment, Sphere,
+    InvalidPrimitives, ObjectSplit, PacketTraversal, PreparedRay, Query, RaySegment, Sphere,
     TraversalCounters, Triangle,
 };
 use accel_core::BruteForce;
@@ -43,6 +45,55 @@ fn single<A: AccelerationStructure>(structure: &A, rays: &[RaySegment]) -> Vec<A
     answers.collect()
 }
 
+/// Any of the queries. One type for all keeps the instances of packet traversal,
+/// which take long to compile, few.
+enum AnyQuery {
+    Closest(ClosestHit),
+    Any(AnyHit),
+    All(AllHits),
+    Odd(Filtered<ClosestHit, fn(&Hit) -> bool>),
+}
+
+impl AnyQuery {
+    fn each(ray: &PreparedRay) -> [Self; 4] {
+        [
+            Self::Closest(ClosestHit::new(ray)),
+            Self::Any(AnyHit::new(ray)),
+            Self::All(AllHits::new(ray)),
+            Self::Odd(Filtered::new(ClosestHit::new(ray), is_odd)),
+        ]
+    }
+
+    fn answer(self, answers: &mut Answers) {
+        match self {
+            Self::Closest(query) => answers.closest = query.best().map(bits),
+            Self::Any(query) => answers.any = query.found(),
+            Self::All(query) => answers.all = query.into_sorted().into_iter().map(bits).collect(),
+            Self::Odd(query) => answers.odd = query.into_inner().best().map(bits),
+        }
+    }
+}
+
+impl Query for AnyQuery {
+    fn t_max(&self) -> f32 {
+        match self {
+            Self::Closest(query) => query.t_max(),
+            Self::Any(query) => query.t_max(),
+            Self::All(query) => query.t_max(),
+            Self::Odd(query) => query.t_max(),
+        }
+    }
+
+    fn offer(&mut self, hit: &Hit) -> ControlFlow<()> {
+        match self {
+            Self::Closest(query) => query.offer(hit),
+            Self::Any(query) => query.offer(hit),
+            Self::All(query) => query.offer(hit),
+            Self::Odd(query) => query.offer(hit),
+        }
+    }
+}
+
 fn in_packets<A: PacketTraversal<N>, const N: usize>(
     structure: &A,
     level: SimdLevel,
@@ -55,20 +106,22 @@ fn in_packets<A: PacketTraversal<N>, const N: usize>(
         odd: None,
     };
     let mut answers = vec![none; rays.len()];
-    structure.query_packets(level, rays, &mut (), ClosestHit::new, |index, query| {
-        answers[index].closest = query.and_then(|query| query.best()).map(bits);
-    });
-    structure.query_packets(level, rays, &mut (), AnyHit::new, |index, query| {
-        answers[index].any = query.is_some_and(|query| query.found());
-    });
-    structure.query_packets(level, rays, &mut (), AllHits::new, |index, query| {
-        let hits = query.map_or_else(Vec::new, AllHits::into_sorted);
-        answers[index].all = hits.into_iter().map(bits).collect();
-    });
-    let odd = |ray: &PreparedRay| Filtered::new(ClosestHit::new(ray), is_odd);
-    structure.query_packets(level, rays, &mut (), odd, |index, query| {
-        answers[index].odd = query.and_then(|query| query.into_inner().best()).map(bits);
-    });
+    for kind in 0..4 {
+        let query = |ray: &PreparedRay| {
+            let [closest, any, all, odd] = AnyQuery::each(ray);
+            match kind {
+                0 => closest,
+                1 => any,
+                2 => all,
+                _ => odd,
+            }
+        };
+        structure.query_packets(level, rays, &mut (), query, |index, query| {
+            if let Some(query) = query {
+                query.answer(&mut answers[index]);
+            }
+        });
+    }
     answers
 }
 
