@@ -108,7 +108,7 @@ fn scenes_of_none_and_one_have_no_nodes() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig::with_cases(50))]
 
     #[test]
     fn any_scene_and_rays_agree(

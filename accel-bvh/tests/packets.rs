@@ -162,7 +162,7 @@ fn built(triangles: &[Triangle], is_swept: bool) -> Bvh<Triangle> {
 /// All finite kinds in turn, every seventh ray replaced by one that is none, and
 /// a run of those: packets with empty lanes and packets without a ray.
 fn spoiled(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
-    let mut rays = rays::mixed(scene, seed, 230);
+    let mut rays = rays::mixed(scene, seed, 160);
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let none = rays::rays(RayKind::NonFinite, scene, &mut random, rays.len());
     for (index, ray) in rays.iter_mut().enumerate() {
@@ -177,7 +177,7 @@ fn spoiled(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
 /// one direction, zero components kept.
 fn coherent(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let middles = rays::mixed(scene, seed, 13);
+    let middles = rays::mixed(scene, seed, 6);
     let sheaves = middles.iter().flat_map(|middle| [*middle; 16]);
     let sheaves = sheaves.map(|mut ray| {
         for axis in 0..3 {
@@ -191,7 +191,7 @@ fn coherent(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
 /// From one origin in all directions, straight through vertices.
 fn from_one_origin(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let mut rays = rays::rays(RayKind::ThroughVertices, scene, &mut random, 200);
+    let mut rays = rays::rays(RayKind::ThroughVertices, scene, &mut random, 96);
     let origin = rays[0].origin;
     for ray in &mut rays {
         ray.direction = ray.origin + ray.direction - origin;
@@ -221,7 +221,7 @@ fn every_width_and_level_agrees_with_brute_force_on_every_family() {
             scenes += 1;
         }
     }
-    assert!(scenes >= 120 && hits > 20_000, "{scenes} {hits}");
+    assert!(scenes >= 120 && hits > 10_000, "{scenes} {hits}");
 }
 
 #[test]
