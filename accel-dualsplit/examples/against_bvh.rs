@@ -10,12 +10,11 @@
 //! few thousand rays. Ratios are medians over all turns.
 #![allow(clippy::print_stdout)]
 
-mod meshes;
-
 use std::hint::black_box;
 use std::time::Instant;
 
 use accel_bvh::CompactBvh;
+use accel_core::testing::mesh_file;
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
     AccelerationStructure, BihConverter, Bvh, BvhBuilder, DualSplitConverter, HTreeConverter,
@@ -29,7 +28,7 @@ const TURN: usize = 4096;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for path in std::env::args().skip(1) {
-        let triangles = meshes::triangles_of(&std::fs::read_to_string(&path)?)?;
+        let triangles = mesh_file::load(&path)?;
         println!("{path}: {} triangles", triangles.len());
         compare(&triangles)?;
     }

@@ -11,10 +11,9 @@
 //! number.
 #![allow(clippy::print_stdout)]
 
-mod meshes;
-
 use std::cell::RefCell;
 
+use accel_core::testing::mesh_file;
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
     Aabb, AccelerationStructure, BihConverter, BvhBuilder, DualSplitConverter, HTreeConverter, Hit,
@@ -61,7 +60,7 @@ fn tested(structure: &impl AccelerationStructure, ray: &RaySegment) -> Vec<u32> 
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for path in std::env::args().skip(1) {
-        let triangles = meshes::triangles_of(&std::fs::read_to_string(&path)?)?;
+        let triangles = mesh_file::load(&path)?;
         let boxes = triangles
             .iter()
             .map(Primitive::bounds)
