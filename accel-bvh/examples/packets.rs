@@ -20,6 +20,7 @@ use accel_bvh::{
     AccelerationStructure, Bvh, BvhBuilder, ClosestHit, Hit, ObjectSplit, PacketTraversal,
     RaySegment, TraversalCounters, Triangle,
 };
+use accel_core::testing::mesh_file;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -29,7 +30,7 @@ const TURN: usize = 4096;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for path in std::env::args().skip(1) {
-        let triangles = triangles_of(&std::fs::read_to_string(&path)?)?;
+        let triangles = mesh_file::load(&path)?;
         println!("{path}: {} triangles", triangles.len());
         let builder = BvhBuilder {
             object_split: ObjectSplit::FullSweep,
@@ -181,38 +182,4 @@ fn tiles(rows: &[RaySegment]) -> Vec<RaySegment> {
         rows[y * SIDE + x]
     };
     (0..rows.len()).map(ray).collect()
-}
-
-/// The triangles of an OBJ file; polygons are fanned.
-fn triangles_of(text: &str) -> Result<Vec<Triangle>, Box<dyn std::error::Error>> {
-    let mut vertices: Vec<Vec3> = Vec::new();
-    let mut triangles = Vec::new();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let coordinates: Vec<f32> = words.map(str::parse).collect::<Result<_, _>>()?;
-                vertices.push(Vec3::from_slice(&coordinates));
-            }
-            Some("f") => {
-                let corners: Vec<Vec3> = words
-                    .map(|word| {
-                        let index: isize = word.split('/').next().unwrap_or_default().parse()?;
-                        let index = if index < 0 {
-                            vertices.len() as isize + index
-                        } else {
-                            index - 1
-                        };
-                        let vertex = vertices.get(index as usize).copied();
-                        vertex.ok_or_else(|| format!("no vertex {word}").into())
-                    })
-                    .collect::<Result<_, Box<dyn std::error::Error>>>()?;
-                for pair in corners[1..].windows(2) {
-                    triangles.push(Triangle::new(corners[0], pair[0], pair[1]));
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(triangles)
 }

@@ -30,6 +30,7 @@ fn decisions_are_right_outside_the_band_and_depths_within_their_bound() {
     check(1, 10_000);
 }
 
+// The long form of the test above; CONTRIBUTING.md has the command.
 #[test]
 #[ignore = "ten million cases take about a quarter of an hour"]
 fn decisions_and_depths_hold_over_ten_million_cases() {
