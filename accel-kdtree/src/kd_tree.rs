@@ -2,12 +2,10 @@
 
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
-use accel_core::simd::SimdLevel;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
-use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
 use crate::node::{Leaf, Node, NodeKind};
-use crate::packet::TracePacket;
 use crate::part::Slack;
 
 /// A kd-tree in nodes of 8 bytes. Made by
@@ -108,24 +106,5 @@ impl<P: Primitive> AccelerationStructure for KdTree<P> {
             true
         });
         outline
-    }
-}
-
-/// Packets are vectors of 4, 8 or 16 rays; more than 16 are cut into vectors of 8.
-impl<P: Primitive, const N: usize> PacketTraversal<N> for KdTree<P> {
-    #[inline]
-    fn traverse_packet_at<Q: Query, S: TraversalStatistics>(
-        &self,
-        level: SimdLevel,
-        rays: &[Option<PreparedRay>; N],
-        queries: &mut [Q; N],
-        statistics: &mut S,
-    ) {
-        level.run(TracePacket {
-            tree: self,
-            rays,
-            queries,
-            statistics,
-        });
     }
 }

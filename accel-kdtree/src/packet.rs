@@ -21,12 +21,12 @@
 
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::RayPacket;
 use accel_core::ray::packet::lanes_of;
-use accel_core::simd::{F32x4, InstructionSet, Lanes, SimdWork};
+use accel_core::ray::{PacketRay, RayPacket};
+use accel_core::simd::Lanes;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::structure::PacketStack;
-use accel_core::{AccelerationStructure, PreparedRay, Primitive};
+use accel_core::structure::{PacketStack, VectorTraversal};
+use accel_core::{PreparedRay, Primitive};
 
 use crate::KdTree;
 use crate::crossing::{CrossingLanes, Crossings};
@@ -36,56 +36,34 @@ use crate::traversal::{Segment, traverse_below};
 /// A vector of no more active rays is traced ray by ray.
 const ALONE: u32 = 1;
 
-/// A packet of `N` rays, to be traced with the vectors of the machine.
-pub(crate) struct TracePacket<'a, P: Primitive, Q, S, const N: usize> {
-    pub tree: &'a KdTree<P>,
-    pub rays: &'a [Option<PreparedRay>; N],
-    pub queries: &'a mut [Q; N],
-    pub statistics: &'a mut S,
-}
-
-impl<P: Primitive, Q: Query, S: TraversalStatistics, const N: usize> SimdWork
-    for TracePacket<'_, P, Q, S, N>
-{
-    type Output = ();
-
+impl<P: Primitive> VectorTraversal for KdTree<P> {
     #[inline(always)]
-    fn run<I: InstructionSet>(self) {
-        if N <= 4 {
-            self.trace::<F32x4>();
-        } else if N > 8 && N <= 16 {
-            self.trace::<I::Sixteen>();
-        } else {
-            self.trace::<I::Eight>();
+    fn traverse_vectors<L: Lanes, Q, S, const VECTORS: usize>(
+        &self,
+        rays: &[PacketRay],
+        queries: &mut [Q],
+        statistics: &mut S,
+    ) where
+        Q: Query,
+        S: TraversalStatistics,
+    {
+        for (rays, queries) in rays.chunks(L::COUNT).zip(queries.chunks_mut(L::COUNT)) {
+            trace_vector::<L, P, Q, S>(self, rays, queries, statistics);
         }
     }
 }
 
-impl<P: Primitive, Q: Query, S: TraversalStatistics, const N: usize> TracePacket<'_, P, Q, S, N> {
-    #[inline(always)]
-    fn trace<L: Lanes>(self) {
-        let vectors = self.rays.chunks(L::COUNT);
-        for (rays, queries) in vectors.zip(self.queries.chunks_mut(L::COUNT)) {
-            let count = rays.iter().flatten().count();
-            if count > 0 {
-                trace_vector::<L, P, Q, S>(self.tree, rays, queries, self.statistics);
-            }
-            (0..count).for_each(|_| self.statistics.finish_ray());
-        }
-    }
-}
-
-/// Traces rays, of which there is at least one.
 #[inline(always)]
 fn trace_vector<L: Lanes, P: Primitive, Q: Query, S: TraversalStatistics>(
     tree: &KdTree<P>,
-    rays: &[Option<PreparedRay>],
+    rays: &[PacketRay],
     queries: &mut [Q],
     statistics: &mut S,
 ) {
-    let mut packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
+    let packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
+    let Some(mut packet) = packet else { return };
     let Some(signs) = packet.shared().signs else {
-        return trace_each(tree, rays, queries, statistics);
+        return tree.traverse_each(rays, queries, statistics);
     };
     let crossings = CrossingLanes::new(packet.lanes(0), &signs, &tree.tolerance());
     // In a place of its own: it is large, and must never be moved.
@@ -112,21 +90,6 @@ fn trace_vector<L: Lanes, P: Primitive, Q: Query, S: TraversalStatistics>(
         };
         if next.is_none() {
             next = vector.pop(&mut stack);
-        }
-    }
-}
-
-/// Traces the rays one after the other.
-#[inline(never)]
-fn trace_each<P: Primitive, Q: Query, S: TraversalStatistics>(
-    tree: &KdTree<P>,
-    rays: &[Option<PreparedRay>],
-    queries: &mut [Q],
-    statistics: &mut S,
-) {
-    for (ray, query) in rays.iter().zip(queries) {
-        if let Some(ray) = ray {
-            tree.traverse(ray, query, statistics);
         }
     }
 }

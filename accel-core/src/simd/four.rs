@@ -81,6 +81,10 @@ impl Lanes for F32x4 {
         Self::new(values[0], values[1], values[2], values[3])
     }
     #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        Self::new(number(0), number(1), number(2), number(3))
+    }
+    #[inline(always)]
     fn lanes(&self) -> &[f32] {
         // SAFETY: a vector in memory is its lanes, side by side.
         unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 4) }
@@ -141,6 +145,14 @@ impl std::ops::Mul for F32x4 {
     }
 }
 
+impl std::ops::Div for F32x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(lanes::div(self.0, other.0))
+    }
+}
+
 // Arrays instead made traversal of a binary BVH 1.1 to 1.2 times slower and its
 // builds 1.1 times: the compiler turns the NaN rule into comparisons and masks.
 #[cfg(target_arch = "x86_64")]
@@ -171,6 +183,11 @@ mod lanes {
     pub fn mul(a: Lanes, b: Lanes) -> Lanes {
         // SAFETY: as above.
         unsafe { sse::_mm_mul_ps(a, b) }
+    }
+    #[inline(always)]
+    pub fn div(a: Lanes, b: Lanes) -> Lanes {
+        // SAFETY: as above.
+        unsafe { sse::_mm_div_ps(a, b) }
     }
     // The instructions answer their second operand where either is NaN.
     #[inline(always)]
@@ -255,6 +272,10 @@ mod lanes {
     #[inline(always)]
     pub fn mul(a: Lanes, b: Lanes) -> Lanes {
         zip(a, b, |a, b| a * b)
+    }
+    #[inline(always)]
+    pub fn div(a: Lanes, b: Lanes) -> Lanes {
+        zip(a, b, |a, b| a / b)
     }
     #[inline(always)]
     pub fn max_or_keep(a: Lanes, b: Lanes) -> Lanes {

@@ -1,7 +1,7 @@
 //! What vectors of every width can do.
 
 use std::fmt::Debug;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use super::Doubles;
 
@@ -10,7 +10,14 @@ use super::Doubles;
 ///
 /// Masks hold a bit per lane, the first lane lowest.
 pub trait Lanes:
-    Copy + Debug + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
 {
     /// How many lanes there are: at most 16.
     const COUNT: usize;
@@ -26,6 +33,9 @@ pub trait Lanes:
     /// # Panics
     /// If there are fewer than lanes.
     fn from_slice(values: &[f32]) -> Self;
+
+    /// `number` of each lane's index, in order.
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self;
 
     /// The lanes in memory, in order.
     fn lanes(&self) -> &[f32];

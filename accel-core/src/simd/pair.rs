@@ -1,6 +1,6 @@
 //! A vector made of two.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use super::{Lanes, PairOfDoubles};
 
@@ -33,6 +33,14 @@ impl<L: Lanes> Mul for Pair<L> {
     }
 }
 
+impl<L: Lanes> Div for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0, self.1 / other.1)
+    }
+}
+
 #[allow(unsafe_code)]
 impl<L: Lanes> Lanes for Pair<L> {
     const COUNT: usize = 2 * L::COUNT;
@@ -47,6 +55,13 @@ impl<L: Lanes> Lanes for Pair<L> {
     fn from_slice(values: &[f32]) -> Self {
         let (low, high) = values.split_at(L::COUNT);
         Self(L::from_slice(low), L::from_slice(high))
+    }
+    #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        Self(
+            L::from_fn(&number),
+            L::from_fn(|lane| number(L::COUNT + lane)),
+        )
     }
     #[inline(always)]
     fn lanes(&self) -> &[f32] {

@@ -42,6 +42,15 @@ impl std::ops::Mul for F32x8 {
     }
 }
 
+impl std::ops::Div for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { intel::_mm256_div_ps(self.0, other.0) })
+    }
+}
+
 impl Lanes for F32x8 {
     const COUNT: usize = 8;
 
@@ -57,6 +66,13 @@ impl Lanes for F32x8 {
         let values = &values[..8];
         // SAFETY: as above, and the slice has that many numbers.
         Self(unsafe { intel::_mm256_loadu_ps(values.as_ptr()) })
+    }
+    #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        let (a, b, c, d) = (number(0), number(1), number(2), number(3));
+        let (e, f, g, h) = (number(4), number(5), number(6), number(7));
+        // SAFETY: as above.
+        Self(unsafe { intel::_mm256_setr_ps(a, b, c, d, e, f, g, h) })
     }
     #[inline(always)]
     fn lanes(&self) -> &[f32] {

@@ -5,6 +5,7 @@ mod in_packets;
 mod packet;
 mod stack;
 mod validation;
+mod vectors;
 
 use crate::build::join;
 use crate::geometry::Aabb;
@@ -19,6 +20,7 @@ pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
 pub use stack::{PacketStack, StackEntry, TraversalStack};
+pub use vectors::VectorTraversal;
 
 /// Answers ray queries over a set of primitives.
 ///
