@@ -3,7 +3,7 @@
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
-use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
 use crate::crossing::Tolerance;
 use crate::node::{Node, NodeKind};
@@ -141,5 +141,3 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
         outline
     }
 }
-
-impl<P: Primitive, const N: usize> PacketTraversal<N> for BspTree<P> {}
