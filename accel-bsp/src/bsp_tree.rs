@@ -2,10 +2,8 @@
 
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
-use accel_core::simd::SimdLevel;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
-use accel_core::structure::traverse_cells;
-use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
 use crate::crossing::Tolerance;
 use crate::node::{Node, NodeKind};
@@ -141,20 +139,5 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
             pending.push((children, boxes[0], Some(node)));
         }
         outline
-    }
-}
-
-/// Packets are vectors of 4, 8 or 16 rays; more than 16 are cut into vectors of 8.
-/// Those of one origin go together, others ray by ray.
-impl<P: Primitive, const N: usize> PacketTraversal<N> for BspTree<P> {
-    #[inline]
-    fn traverse_packet_at<Q: Query, S: TraversalStatistics>(
-        &self,
-        level: SimdLevel,
-        rays: &[Option<PreparedRay>; N],
-        queries: &mut [Q; N],
-        statistics: &mut S,
-    ) {
-        traverse_cells(self, level, rays, queries, statistics);
     }
 }

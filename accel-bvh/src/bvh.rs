@@ -2,12 +2,10 @@
 
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
-use accel_core::simd::SimdLevel;
 use accel_core::statistics::{NodeKind, TraversalStatistics, TreeOutline};
-use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
 use crate::node::{INNER_WORDS, InnerNode, Node, NodePointer};
-use crate::packet;
 
 /// A bounding volume hierarchy in the uncompressed layout of Lin 2019: 52 bytes
 /// an inner node, 4 bytes a leaf. Made by [`BvhBuilder`](crate::BvhBuilder);
@@ -105,25 +103,5 @@ impl<P: Primitive> AccelerationStructure for Bvh<P> {
             }
         }
         outline
-    }
-}
-
-/// Up to 16 rays are one vector of 4, 8 or 16 lanes; more go in groups of 64
-/// rays, eight vectors of eight lanes, which share the tests of large nodes.
-impl<P: Primitive, const N: usize> PacketTraversal<N> for Bvh<P> {
-    #[inline]
-    fn traverse_packet_at<Q: Query, S: TraversalStatistics>(
-        &self,
-        level: SimdLevel,
-        rays: &[Option<PreparedRay>; N],
-        queries: &mut [Q; N],
-        statistics: &mut S,
-    ) {
-        level.run(packet::TracePacket {
-            bvh: self,
-            rays,
-            queries,
-            statistics,
-        });
     }
 }

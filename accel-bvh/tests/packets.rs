@@ -1,150 +1,15 @@
 //! Packets of every width, at every level of vectors that the machine has,
 //! against brute force, bit for bit.
 
-use std::ops::ControlFlow;
-
 use accel_bvh::accel_core::simd::SimdLevel;
 use accel_bvh::{
-    AccelerationStructure, AllHits, AnyHit, Bvh, BvhBuilder, ClosestHit, Filtered, Hit,
-    InvalidPrimitives, ObjectSplit, PacketTraversal, PreparedRay, Query, RaySegment, Sphere,
-    TraversalCounters, Triangle,
+    AccelerationStructure, Bvh, BvhBuilder, ClosestHit, InvalidPrimitives, ObjectSplit,
+    PacketTraversal, RaySegment, Sphere, TraversalCounters, Triangle,
 };
 use accel_core::BruteForce;
-use accel_core::testing::agreement::oracle;
-use accel_core::testing::rays::RayKind;
+use accel_core::testing::agreement::Expected;
+use accel_core::testing::packets::{check_packets, ray_sets};
 use accel_core::testing::{families, rays};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-
-/// The answers of all queries to a ray, hits by their bits.
-#[derive(Clone, Debug, PartialEq)]
-struct Answers {
-    closest: Option<Bits>,
-    any: bool,
-    all: Vec<Bits>,
-    odd: Option<Bits>,
-}
-
-type Bits = [u32; 4];
-
-fn bits(hit: Hit) -> Bits {
-    [hit.t.to_bits(), hit.u.to_bits(), hit.v.to_bits(), hit.id]
-}
-
-fn is_odd(hit: &Hit) -> bool {
-    hit.id % 2 == 1
-}
-
-fn single<A: AccelerationStructure>(structure: &A, rays: &[RaySegment]) -> Vec<Answers> {
-    let answers = rays.iter().map(|ray| Answers {
-        closest: structure.closest_hit(ray).map(bits),
-        any: structure.any_hit(ray),
-        all: structure.all_hits(ray).into_iter().map(bits).collect(),
-        odd: structure.closest_hit_where(ray, is_odd).map(bits),
-    });
-    answers.collect()
-}
-
-/// Any of the queries. One type for all keeps the instances of packet traversal,
-/// which take long to compile, few.
-enum AnyQuery {
-    Closest(ClosestHit),
-    Any(AnyHit),
-    All(AllHits),
-    Odd(Filtered<ClosestHit, fn(&Hit) -> bool>),
-}
-
-impl AnyQuery {
-    fn each(ray: &PreparedRay) -> [Self; 4] {
-        [
-            Self::Closest(ClosestHit::new(ray)),
-            Self::Any(AnyHit::new(ray)),
-            Self::All(AllHits::new(ray)),
-            Self::Odd(Filtered::new(ClosestHit::new(ray), is_odd)),
-        ]
-    }
-
-    fn answer(self, answers: &mut Answers) {
-        match self {
-            Self::Closest(query) => answers.closest = query.best().map(bits),
-            Self::Any(query) => answers.any = query.found(),
-            Self::All(query) => answers.all = query.into_sorted().into_iter().map(bits).collect(),
-            Self::Odd(query) => answers.odd = query.into_inner().best().map(bits),
-        }
-    }
-}
-
-impl Query for AnyQuery {
-    fn t_max(&self) -> f32 {
-        match self {
-            Self::Closest(query) => query.t_max(),
-            Self::Any(query) => query.t_max(),
-            Self::All(query) => query.t_max(),
-            Self::Odd(query) => query.t_max(),
-        }
-    }
-
-    fn offer(&mut self, hit: &Hit) -> ControlFlow<()> {
-        match self {
-            Self::Closest(query) => query.offer(hit),
-            Self::Any(query) => query.offer(hit),
-            Self::All(query) => query.offer(hit),
-            Self::Odd(query) => query.offer(hit),
-        }
-    }
-}
-
-fn in_packets<A: PacketTraversal<N>, const N: usize>(
-    structure: &A,
-    level: SimdLevel,
-    rays: &[RaySegment],
-) -> Vec<Answers> {
-    let none = Answers {
-        closest: None,
-        any: false,
-        all: Vec::new(),
-        odd: None,
-    };
-    let mut answers = vec![none; rays.len()];
-    for kind in 0..4 {
-        let query = |ray: &PreparedRay| {
-            let [closest, any, all, odd] = AnyQuery::each(ray);
-            match kind {
-                0 => closest,
-                1 => any,
-                2 => all,
-                _ => odd,
-            }
-        };
-        structure.query_packets(level, rays, &mut (), query, |index, query| {
-            if let Some(query) = query {
-                query.answer(&mut answers[index]);
-            }
-        });
-    }
-    answers
-}
-
-/// Compares packets of every width at every level with `expected`.
-fn compare<A>(structure: &A, rays: &[RaySegment], expected: &[Answers], what: &str)
-where
-    A: PacketTraversal<4> + PacketTraversal<8> + PacketTraversal<16> + PacketTraversal<64>,
-{
-    for level in SimdLevel::available() {
-        let widths = [
-            (4, in_packets::<A, 4>(structure, level, rays)),
-            (8, in_packets::<A, 8>(structure, level, rays)),
-            (16, in_packets::<A, 16>(structure, level, rays)),
-            (64, in_packets::<A, 64>(structure, level, rays)),
-        ];
-        for (width, actual) in widths {
-            for ((ray, expected), actual) in rays.iter().zip(expected).zip(&actual) {
-                let level = level.name();
-                assert_eq!(expected, actual, "{what}, {width} lanes, {level}: {ray:?}");
-            }
-        }
-    }
-}
 
 fn built(triangles: &[Triangle], is_swept: bool) -> Bvh<Triangle> {
     let builder = BvhBuilder {
@@ -159,47 +24,6 @@ fn built(triangles: &[Triangle], is_swept: bool) -> Bvh<Triangle> {
     builder.build(triangles).unwrap()
 }
 
-/// All finite kinds in turn, every seventh ray replaced by one that is none, and
-/// a run of those: packets with empty lanes and packets without a ray.
-fn spoiled(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
-    let mut rays = rays::mixed(scene, seed, 160);
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let none = rays::rays(RayKind::NonFinite, scene, &mut random, rays.len());
-    for (index, ray) in rays.iter_mut().enumerate() {
-        if index % 7 == 3 || (80..150).contains(&index) {
-            *ray = none[index];
-        }
-    }
-    rays
-}
-
-/// Sheaves of rays about those of all finite kinds: of one origin and nearly
-/// one direction, zero components kept.
-fn coherent(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let middles = rays::mixed(scene, seed, 6);
-    let sheaves = middles.iter().flat_map(|middle| [*middle; 16]);
-    let sheaves = sheaves.map(|mut ray| {
-        for axis in 0..3 {
-            ray.direction[axis] *= 1.0 + random.random_range(-0.02..0.02_f32);
-        }
-        ray
-    });
-    sheaves.collect()
-}
-
-/// From one origin in all directions, straight through vertices.
-fn from_one_origin(scene: &[Triangle], seed: u64) -> Vec<RaySegment> {
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let mut rays = rays::rays(RayKind::ThroughVertices, scene, &mut random, 96);
-    let origin = rays[0].origin;
-    for ray in &mut rays {
-        ray.direction = ray.origin + ray.direction - origin;
-        ray.origin = origin;
-    }
-    rays
-}
-
 #[test]
 fn every_width_and_level_agrees_with_brute_force_on_every_family() {
     let (mut hits, mut scenes) = (0, 0);
@@ -207,17 +31,12 @@ fn every_width_and_level_agrees_with_brute_force_on_every_family() {
         // Half of the trees are swept, half are binned.
         let seed = index % 2;
         let scene = family.scene(seed, 300);
-        let (bvh, oracle) = (built(&scene, seed == 0), oracle(&scene).unwrap());
-        let sets = [
-            ("spoiled", spoiled(&scene, seed)),
-            ("coherent", coherent(&scene, seed)),
-            ("from one origin", from_one_origin(&scene, seed)),
-        ];
-        for (set, rays) in sets {
-            let expected = single(&oracle, &rays);
-            let what = format!("family {}, seed {seed}, {set}", family.name);
-            compare(&bvh, &rays, &expected, &what);
-            hits += expected.iter().filter(|answers| answers.any).count();
+        let bvh = built(&scene, seed == 0);
+        for (set, rays) in ray_sets(&scene, seed) {
+            let expected = Expected::new(&scene, rays).unwrap();
+            check_packets(&bvh, &expected)
+                .unwrap_or_else(|error| panic!("{}, seed {seed}, {set}: {error}", family.name));
+            hits += expected.hits();
         }
         scenes += 1;
     }
@@ -233,9 +52,9 @@ fn primitives_without_a_test_of_lanes_agree() {
         .collect();
     let bvh = BvhBuilder::default().build(&spheres).unwrap();
     let oracle = BruteForce::new(&spheres).unwrap();
-    for rays in [spoiled(&boxes, 1), coherent(&boxes, 2)] {
-        let expected = single(&oracle, &rays);
-        compare(&bvh, &rays, &expected, "spheres");
+    for (set, rays) in ray_sets(&boxes, 1) {
+        check_packets(&bvh, &Expected::by(&oracle, rays))
+            .unwrap_or_else(|error| panic!("{set}: {error}"));
     }
 }
 
@@ -246,8 +65,8 @@ fn a_tree_of_nothing_and_one_of_a_leaf_answer_packets() {
         .map(|index| RaySegment::new([index as f32 * 0.02, 0.1, 0.0], [0.0, 0.0, 1.0]))
         .collect();
     for scene in [&[][..], &[triangle]] {
-        let expected = single(&oracle(scene).unwrap(), &rays);
-        compare(&built(scene, true), &rays, &expected, "few triangles");
+        let expected = Expected::new(scene, rays.clone()).unwrap();
+        check_packets(&built(scene, true), &expected).unwrap();
     }
 }
 

@@ -3,13 +3,10 @@
 use accel_bvh::{
     AccelerationStructure, BvhBuilder, InvalidPrimitives, LeafRule, ObjectSplit, Triangle,
 };
-use accel_core::TraversalCounters;
 use accel_core::build::median_depth;
 use accel_core::glam::Vec3;
-use accel_core::testing::families::stadium;
+use accel_core::testing::stress::{on_a_small_stack, tests_of_a_figure};
 use accel_core::testing::{families, rays};
-use rand::SeedableRng;
-use rand_pcg::Pcg64Mcg;
 
 const SPLITS: [ObjectSplit; 2] = [ObjectSplit::FullSweep, ObjectSplit::Binned { bins: 32 }];
 
@@ -74,7 +71,7 @@ fn a_thread_with_64_kib_of_stack_builds_and_traverses_the_deepest_family() {
                 .depth()
         })
         .unwrap();
-    let work = move || {
+    on_a_small_stack(|| {
         for object_split in SPLITS {
             let bvh = builder(object_split).build(&deepest).unwrap();
             assert!(bvh.depth() >= 30, "depth {}", bvh.depth());
@@ -87,37 +84,15 @@ fn a_thread_with_64_kib_of_stack_builds_and_traverses_the_deepest_family() {
             );
             bvh.validate().unwrap();
         }
-    };
-    let thread = std::thread::Builder::new()
-        .stack_size(64 << 10)
-        .spawn(work)
-        .unwrap();
-    thread.join().unwrap();
+    });
 }
 
 #[test]
 fn a_figure_costs_hardly_more_in_a_stadium_than_alone() {
-    let figure = stadium::figure(20_000);
-    let scene: Vec<Triangle> = figure
-        .iter()
-        .chain(&stadium::stadium(2000))
-        .copied()
-        .collect();
-    let mut random = Pcg64Mcg::seed_from_u64(3);
-    let mut rays = rays::rays(rays::RayKind::ThroughEdges, &figure, &mut random, 20_000);
-    // The others start below the floor and meet it first.
-    rays.retain(|ray| ray.origin.y > -1.5);
     for object_split in SPLITS {
-        let tests = |triangles: &[Triangle]| {
-            let bvh = builder(object_split).build(triangles).unwrap();
-            let mut counters = TraversalCounters::default();
-            for ray in &rays {
-                bvh.closest_hit_with(ray, &mut counters);
-            }
-            counters.mean(&counters.primitive_tests)
-        };
-        let (alone, in_stadium) = (tests(&figure), tests(&scene));
-        assert!(rays.len() > 5000 && alone > 1.0, "{alone}");
+        let build = |triangles: &[Triangle]| builder(object_split).build(triangles).unwrap();
+        let [alone, in_stadium] = tests_of_a_figure(build);
+        assert!(alone > 1.0, "{alone}");
         assert!(in_stadium <= 1.5 * alone, "{in_stadium} against {alone}");
     }
 }

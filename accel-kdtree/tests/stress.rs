@@ -1,10 +1,10 @@
 //! Scenes that would make a careless builder slow, deep, or overflow a stack.
 
-use accel_core::testing::families::{self, stadium};
-use accel_core::testing::rays;
+use accel_core::testing::stress::{on_a_small_stack, tests_of_a_figure};
+use accel_core::testing::{families, rays};
 use accel_kdtree::{
-    AccelerationStructure, InvalidPrimitives, KdTree, KdTreeBuilder, PlaneSearch, PreparedRay,
-    Termination, TraversalCounters, Triangle, Work,
+    AccelerationStructure, InvalidPrimitives, KdTree, KdTreeBuilder, PlaneSearch, Termination,
+    Triangle, Work,
 };
 
 fn builders() -> [KdTreeBuilder; 2] {
@@ -89,43 +89,21 @@ fn a_thread_with_64_kib_of_stack_builds_and_traverses_the_deepest_family() {
         .map(|family| family.scene(1, 500))
         .max_by_key(|scene| build(&manual, scene).0.depth())
         .unwrap();
-    let work = move || {
+    on_a_small_stack(|| {
         let (tree, _) = build(&manual, &deepest);
         assert!(tree.depth() >= 60, "depth {}", tree.depth());
         let rays = rays::mixed(&deepest, 2, 1000);
         let hits = rays.iter().filter(|ray| tree.closest_hit(*ray).is_some());
         assert!(hits.count() > 10);
         tree.validate().unwrap();
-    };
-    let thread = std::thread::Builder::new()
-        .stack_size(64 << 10)
-        .spawn(work)
-        .unwrap();
-    thread.join().unwrap();
+    });
 }
 
 #[test]
 fn a_figure_costs_hardly_more_in_a_stadium_than_alone() {
-    let figure = stadium::figure(20_000);
-    let scene: Vec<Triangle> = figure
-        .iter()
-        .chain(&stadium::stadium(2000))
-        .copied()
-        .collect();
-    let mut rays = rays::mixed(&figure, 3, 20_000);
-    // The others start below the floor and meet it first, or hit nothing at all.
-    rays.retain(|ray| ray.origin.y > -1.5 && PreparedRay::new(ray).is_some());
     for builder in builders() {
-        let tests = |triangles: &[Triangle]| {
-            let (tree, _) = build(&builder, triangles);
-            let mut counters = TraversalCounters::default();
-            for ray in &rays {
-                tree.closest_hit_with(ray, &mut counters);
-            }
-            counters.mean(&counters.primitive_tests)
-        };
-        let (alone, in_stadium) = (tests(&figure), tests(&scene));
-        assert!(rays.len() > 5000 && alone > 1.0, "{alone}");
+        let [alone, in_stadium] = tests_of_a_figure(|triangles| build(&builder, triangles).0);
+        assert!(alone > 1.0, "{alone}");
         assert!(in_stadium <= 1.5 * alone, "{in_stadium} against {alone}");
     }
 }

@@ -1,15 +1,15 @@
 //! A group of vectors on its way through the tree.
 
+use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::RayPacket;
 use accel_core::ray::packet::lanes_of;
+use accel_core::ray::{PacketRay, RayPacket};
 use accel_core::simd::Lanes;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
 use accel_core::structure::PacketStack;
 use accel_core::{PreparedRay, Primitive};
 
 use super::cull::SiblingCull;
-use super::intersect_leaf;
 use crate::Bvh;
 use crate::node::{INNER_NODE_BYTES, InnerNode, LEAF_NODE_BYTES, Node, NodePointer};
 use crate::traversal::traverse_below;
@@ -42,12 +42,11 @@ struct Visit<L> {
     near: L,
 }
 
-/// Traces rays, of which there is at least one; false, and nothing done, where
-/// their directions differ in sign.
+/// Traces rays; false, and nothing done, where their directions differ in sign.
 #[inline(always)]
 pub(super) fn trace<L: Lanes, P, Q, S, const VECTORS: usize>(
     bvh: &Bvh<P>,
-    rays: &[Option<PreparedRay>],
+    rays: &[PacketRay],
     queries: &mut [Q],
     statistics: &mut S,
 ) -> bool
@@ -56,7 +55,10 @@ where
     Q: Query,
     S: TraversalStatistics,
 {
-    let mut packet = RayPacket::<L, VECTORS>::new(rays, |lane| queries[lane].t_max());
+    let packet = RayPacket::<L, VECTORS>::new(rays, |lane| queries[lane].t_max());
+    let Some(mut packet) = packet else {
+        return true;
+    };
     if packet.shared().signs.is_none() {
         return false;
     }
@@ -250,8 +252,9 @@ impl<L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'_, '_, L, P,
             };
             if mask != 0 {
                 let queries = &mut self.queries[vector * L::COUNT..];
-                let rays = self.packet.vector(vector);
-                intersect_leaf(bvh, leaf, mask, rays, queries, statistics);
+                let mut rays = self.packet.vector(vector);
+                let leaves = bvh.stored.leaves();
+                leaves.intersect_leaf_packet(leaf, mask, &mut rays, queries, statistics);
             }
         }
         if VECTORS > 1 {

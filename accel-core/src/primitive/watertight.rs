@@ -253,7 +253,7 @@ fn sheared_lanes<L: Lanes, const MAIN: usize>(rays: &RayLanes<L>, vertex: Vec3) 
 mod tests {
     use super::*;
     use crate::Triangle;
-    use crate::ray::{RayPacket, RaySegment};
+    use crate::ray::{PacketRay, RayPacket, RaySegment};
     use crate::simd::F32x4;
     use crate::testing::{families, rays};
 
@@ -331,16 +331,16 @@ mod tests {
         let scene = families::find("axis-grid").unwrap().scene(1, 300);
         let rays: Vec<_> = rays::mixed(&scene, 7, 400)
             .iter()
-            .map(PreparedRay::new)
+            .map(PacketRay::new)
             .collect();
         let mut met = 0;
         for rays in rays.chunks(4) {
-            let packet = RayPacket::<F32x4, 1>::new(rays, |_| 1.0);
+            let packet = RayPacket::<F32x4, 1>::new(rays, |_| 1.0).unwrap();
             for vertices in scene.iter().map(Triangle::vertices) {
                 let found = intersect_lanes(packet.lanes(0), packet.shared(), 0b1111, vertices);
                 let Some(found) = found else { continue };
                 for (lane, ray) in rays.iter().enumerate() {
-                    let expected = intersect(&ray.unwrap(), vertices);
+                    let expected = intersect(ray.prepared().unwrap(), vertices);
                     let bits = |found: Intersection| [found.t, found.u, found.v].map(f32::to_bits);
                     assert_eq!(found.get(lane).map(bits), expected.map(bits), "{ray:?}");
                     met += usize::from(expected.is_some());

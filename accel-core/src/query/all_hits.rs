@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::Ray;
 
 /// Collects every hit in the ray's interval, for transparency or for counting
 /// crossings.
@@ -15,7 +15,7 @@ pub struct AllHits {
 
 impl AllHits {
     /// For the whole interval of `ray`.
-    pub fn new(ray: &PreparedRay) -> Self {
+    pub fn new(ray: &impl Ray) -> Self {
         Self {
             t_max: ray.t_max(),
             hits: Vec::new(),

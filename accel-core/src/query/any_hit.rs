@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::Ray;
 
 /// Tells whether anything is hit and stops at the first hit, whichever it is.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub struct AnyHit {
 impl AnyHit {
     /// For the whole interval of `ray`.
     #[inline]
-    pub fn new(ray: &PreparedRay) -> Self {
+    pub fn new(ray: &impl Ray) -> Self {
         Self {
             t_max: ray.t_max(),
             found: false,

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::Ray;
 
 /// Finds the hit with the smallest `t`; of equals, the one with the smallest id.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub struct ClosestHit {
 impl ClosestHit {
     /// For the whole interval of `ray`.
     #[inline]
-    pub fn new(ray: &PreparedRay) -> Self {
+    pub fn new(ray: &impl Ray) -> Self {
         Self {
             t_max: ray.t_max(),
             best: None,

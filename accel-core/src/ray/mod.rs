@@ -6,7 +6,7 @@ mod segment;
 
 use glam::Vec3;
 
-pub use packet::{PacketVector, RayPacket};
+pub use packet::{PacketRay, PacketVector, RayPacket};
 pub(crate) use prepared::Shear;
 pub use prepared::{Interval, PreparedRay, max_or_keep, min_or_keep};
 pub use segment::RaySegment;

@@ -189,6 +189,21 @@ impl PreparedRay {
     }
 }
 
+impl Ray for PreparedRay {
+    fn origin(&self) -> Vec3 {
+        self.origin
+    }
+    fn direction(&self) -> Vec3 {
+        self.direction
+    }
+    fn t_min(&self) -> f32 {
+        self.t_min
+    }
+    fn t_max(&self) -> f32 {
+        self.t_max
+    }
+}
+
 impl Shear {
     #[inline]
     fn new(direction: Vec3) -> Self {
@@ -208,16 +223,17 @@ impl Shear {
 /// above 1e38, NaN: an overflow would cull boxes that the ray meets.
 #[inline]
 fn usable_reciprocal(component: f32) -> f32 {
-    /// Leaves room for the pad.
-    const LARGEST: f32 = f32::MAX / 2.0;
     let reciprocal = 1.0 / component;
-    let is_exact = (f32::MIN_POSITIVE..=LARGEST).contains(&reciprocal.abs());
+    let is_exact = (f32::MIN_POSITIVE..=LARGEST_RECIPROCAL).contains(&reciprocal.abs());
     if is_exact || component == 0.0 {
         reciprocal
     } else {
         f32::NAN
     }
 }
+
+/// The largest magnitude of a usable reciprocal: leaves room for the pad.
+pub(super) const LARGEST_RECIPROCAL: f32 = f32::MAX / 2.0;
 
 /// What the near end of a slab interval is multiplied by.
 pub(super) const NEAR_PAD: f32 = 1.0 - 2.0 * gamma(3);

@@ -81,6 +81,10 @@ impl Lanes for F32x4 {
         Self::new(values[0], values[1], values[2], values[3])
     }
     #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        Self::new(number(0), number(1), number(2), number(3))
+    }
+    #[inline(always)]
     fn lanes(&self) -> &[f32] {
         // SAFETY: a vector in memory is its lanes, side by side.
         unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 4) }

@@ -34,6 +34,9 @@ pub trait Lanes:
     /// If there are fewer than lanes.
     fn from_slice(values: &[f32]) -> Self;
 
+    /// `number` of each lane's index, in order.
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self;
+
     /// The lanes in memory, in order.
     fn lanes(&self) -> &[f32];
 

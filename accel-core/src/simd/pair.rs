@@ -57,6 +57,13 @@ impl<L: Lanes> Lanes for Pair<L> {
         Self(L::from_slice(low), L::from_slice(high))
     }
     #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        Self(
+            L::from_fn(&number),
+            L::from_fn(|lane| number(L::COUNT + lane)),
+        )
+    }
+    #[inline(always)]
     fn lanes(&self) -> &[f32] {
         debug_assert_eq!(size_of::<Self>(), Self::COUNT * size_of::<f32>());
         // SAFETY: both halves are nothing but their lanes, side by side.

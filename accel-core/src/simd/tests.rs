@@ -46,6 +46,8 @@ fn agrees_with_scalars<L: Lanes>() {
         }
     }
     assert_eq!(L::ALL.count_ones() as usize, L::COUNT);
+    let counted = L::from_fn(|lane| lane as f32);
+    assert!((0..L::COUNT).all(|lane| counted.lanes()[lane] == lane as f32));
 }
 
 fn same<L: Lanes>(result: L, x: L, y: L, scalar: impl Fn(f32, f32) -> f32) {

@@ -68,6 +68,13 @@ impl Lanes for F32x8 {
         Self(unsafe { intel::_mm256_loadu_ps(values.as_ptr()) })
     }
     #[inline(always)]
+    fn from_fn(number: impl Fn(usize) -> f32) -> Self {
+        let (a, b, c, d) = (number(0), number(1), number(2), number(3));
+        let (e, f, g, h) = (number(4), number(5), number(6), number(7));
+        // SAFETY: as above.
+        Self(unsafe { intel::_mm256_setr_ps(a, b, c, d, e, f, g, h) })
+    }
+    #[inline(always)]
     fn lanes(&self) -> &[f32] {
         // SAFETY: a register in memory is its lanes, side by side.
         unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 8) }

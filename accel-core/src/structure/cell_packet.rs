@@ -20,12 +20,12 @@
 
 use std::ops::ControlFlow;
 
-use super::{AccelerationStructure, PacketStack};
+use super::{AccelerationStructure, PacketStack, VectorTraversal};
 use crate::layout::LeafStorage;
 use crate::query::Query;
 use crate::ray::packet::lanes_of;
-use crate::ray::{PreparedRay, RayPacket};
-use crate::simd::{F32x4, InstructionSet, Lanes, SimdLevel, SimdWork};
+use crate::ray::{PacketRay, PreparedRay, RayPacket};
+use crate::simd::Lanes;
 use crate::statistics::TraversalStatistics;
 
 /// A vector of no more active rays is traced ray by ray.
@@ -121,73 +121,35 @@ impl<L: Lanes> CellVisit<L> {
     }
 }
 
-/// Traces a packet through `tree` with the vectors of `level`: rays in vectors of
-/// 4, 8 or 16; more than 16 are cut into vectors of 8.
-#[inline]
-pub fn traverse_cells<A: CellTree, Q: Query, S: TraversalStatistics, const N: usize>(
-    tree: &A,
-    level: SimdLevel,
-    rays: &[Option<PreparedRay>; N],
-    queries: &mut [Q; N],
-    statistics: &mut S,
-) {
-    level.run(TracePacket {
-        tree,
-        rays,
-        queries,
-        statistics,
-    });
-}
-
-struct TracePacket<'a, A, Q, S, const N: usize> {
-    tree: &'a A,
-    rays: &'a [Option<PreparedRay>; N],
-    queries: &'a mut [Q; N],
-    statistics: &'a mut S,
-}
-
-impl<A: CellTree, Q: Query, S: TraversalStatistics, const N: usize> SimdWork
-    for TracePacket<'_, A, Q, S, N>
-{
-    type Output = ();
-
+impl<A: CellTree> VectorTraversal for A {
+    /// Vectors go one by one.
     #[inline(always)]
-    fn run<I: InstructionSet>(self) {
-        if N <= 4 {
-            self.trace::<F32x4>();
-        } else if N > 8 && N <= 16 {
-            self.trace::<I::Sixteen>();
-        } else {
-            self.trace::<I::Eight>();
+    fn traverse_vectors<L: Lanes, Q, S, const VECTORS: usize>(
+        &self,
+        rays: &[PacketRay],
+        queries: &mut [Q],
+        statistics: &mut S,
+    ) where
+        Q: Query,
+        S: TraversalStatistics,
+    {
+        for (rays, queries) in rays.chunks(L::COUNT).zip(queries.chunks_mut(L::COUNT)) {
+            trace_vector::<L, A, Q, S>(self, rays, queries, statistics);
         }
     }
 }
 
-impl<A: CellTree, Q: Query, S: TraversalStatistics, const N: usize> TracePacket<'_, A, Q, S, N> {
-    #[inline(always)]
-    fn trace<L: Lanes>(self) {
-        let vectors = self.rays.chunks(L::COUNT);
-        for (rays, queries) in vectors.zip(self.queries.chunks_mut(L::COUNT)) {
-            let count = rays.iter().flatten().count();
-            if count > 0 {
-                trace_vector::<L, A, Q, S>(self.tree, rays, queries, self.statistics);
-            }
-            (0..count).for_each(|_| self.statistics.finish_ray());
-        }
-    }
-}
-
-/// Traces rays, of which there is at least one.
 #[inline(always)]
 fn trace_vector<L: Lanes, A: CellTree, Q: Query, S: TraversalStatistics>(
     tree: &A,
-    rays: &[Option<PreparedRay>],
+    rays: &[PacketRay],
     queries: &mut [Q],
     statistics: &mut S,
 ) {
-    let mut packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
+    let packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
+    let Some(mut packet) = packet else { return };
     let Some(prepared) = tree.prepare(&packet) else {
-        return trace_each(tree, rays, queries, statistics);
+        return tree.traverse_each(rays, queries, statistics);
     };
     // In a place of its own: it is large, and must never be moved.
     let mut stack = PacketStack::new();
@@ -210,21 +172,6 @@ fn trace_vector<L: Lanes, A: CellTree, Q: Query, S: TraversalStatistics>(
         };
         if next.is_none() {
             next = vector.pop(&mut stack);
-        }
-    }
-}
-
-/// Traces the rays one after the other.
-#[inline(never)]
-fn trace_each<A: CellTree, Q: Query, S: TraversalStatistics>(
-    tree: &A,
-    rays: &[Option<PreparedRay>],
-    queries: &mut [Q],
-    statistics: &mut S,
-) {
-    for (ray, query) in rays.iter().zip(queries) {
-        if let Some(ray) = ray {
-            tree.traverse(ray, query, statistics);
         }
     }
 }

@@ -6,6 +6,7 @@ mod in_packets;
 mod packet;
 mod stack;
 mod validation;
+mod vectors;
 
 use crate::build::join;
 use crate::geometry::Aabb;
@@ -16,11 +17,12 @@ use crate::ray::{PreparedRay, Ray};
 use crate::split::SurfaceAreaHeuristic;
 use crate::statistics::{BytesByPart, TraversalStatistics, TreeOutline, TreeStatistics};
 
-pub use cell_packet::{CellTree, CellVisit, Division, RayPart, traverse_cells};
+pub use cell_packet::{CellTree, CellVisit, Division, RayPart};
 pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
 pub use stack::{PacketStack, StackEntry, TraversalStack};
+pub use vectors::VectorTraversal;
 
 /// Answers ray queries over a set of primitives.
 ///

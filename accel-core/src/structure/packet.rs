@@ -1,8 +1,10 @@
 //! Traversal of several rays at once.
 
+use arrayvec::ArrayVec;
+
 use super::{AccelerationStructure, for_each_batch};
 use crate::query::{AllHits, AnyHit, ClosestHit, Hit, Query};
-use crate::ray::{PreparedRay, Ray};
+use crate::ray::{PacketRay, Ray};
 use crate::simd::SimdLevel;
 use crate::statistics::TraversalStatistics;
 
@@ -15,21 +17,26 @@ use crate::statistics::TraversalStatistics;
 /// Statistics count what a packet does once, whatever the number of its rays:
 /// divided by the rays, nodes are those visited per ray.
 pub trait PacketTraversal<const N: usize>: AccelerationStructure {
-    /// Answers `queries[i]` for `rays[i]` with the vectors of `level`. Lanes
-    /// without a ray are left alone and not counted.
+    /// Answers `queries[i]` for `rays[i]`, of which there are at most `N`, with
+    /// the vectors of `level`. The queries of rays that can hit nothing are left
+    /// as they are.
+    ///
+    /// # Panics
+    /// If there are not as many queries as rays.
     fn traverse_packet_at<Q: Query, S: TraversalStatistics>(
         &self,
         level: SimdLevel,
-        rays: &[Option<PreparedRay>; N],
-        queries: &mut [Q; N],
+        rays: &[PacketRay],
+        queries: &mut [Q],
         statistics: &mut S,
     ) {
         let _ = level;
+        assert_eq!(rays.len(), queries.len(), "one query per ray");
         for (ray, query) in rays.iter().zip(queries) {
-            if let Some(ray) = ray {
+            if let Some(ray) = ray.prepared() {
                 self.traverse(ray, query, statistics);
-                statistics.finish_ray();
             }
+            statistics.finish_ray();
         }
     }
 
@@ -38,16 +45,16 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
     #[inline]
     fn traverse_packet<Q: Query, S: TraversalStatistics>(
         &self,
-        rays: &[Option<PreparedRay>; N],
-        queries: &mut [Q; N],
+        rays: &[PacketRay],
+        queries: &mut [Q],
         statistics: &mut S,
     ) {
         self.traverse_packet_at(SimdLevel::detect(), rays, queries, statistics);
     }
 
     /// Cuts `rays` into packets and gives `answer` the index and the answered
-    /// query of each; none for rays that can hit nothing. The last packet may
-    /// have empty lanes.
+    /// query of each. `query` makes them; that of a ray that can hit nothing stays
+    /// as it was made.
     ///
     /// Packets pay where neighbours in the slice are neighbours in the scene, as
     /// the rays of a tile of pixels are. Any others are answered as well.
@@ -57,27 +64,19 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
         level: SimdLevel,
         rays: &[R],
         statistics: &mut S,
-        query: impl Fn(&PreparedRay) -> Q,
-        mut answer: impl FnMut(usize, Option<Q>),
+        query: impl Fn(&R) -> Q,
+        mut answer: impl FnMut(usize, Q),
     ) {
-        for (packet, rays) in rays.chunks(N).enumerate() {
-            let mut prepared: [Option<PreparedRay>; N] = [None; N];
-            for (ray, slot) in rays.iter().zip(&mut prepared) {
-                *slot = PreparedRay::new(ray);
-            }
-            let missed = prepared[..rays.len()].iter().filter(|ray| ray.is_none());
-            missed.for_each(|_| statistics.finish_ray());
-            let Some(first) = prepared.iter().flatten().next() else {
-                (0..rays.len()).for_each(|lane| answer(packet * N + lane, None));
-                continue;
-            };
-            // An empty lane's query is never asked.
-            let mut queries = prepared
-                .each_ref()
-                .map(|ray| query(ray.as_ref().unwrap_or(first)));
-            self.traverse_packet_at(level, &prepared, &mut queries, statistics);
-            for (lane, query) in queries.into_iter().enumerate().take(rays.len()) {
-                answer(packet * N + lane, prepared[lane].is_some().then_some(query));
+        // In the same place for all packets, so that nothing is moved.
+        let mut packet: ArrayVec<PacketRay, N> = ArrayVec::new();
+        let mut queries: ArrayVec<Q, N> = ArrayVec::new();
+        for (index, rays) in rays.chunks(N).enumerate() {
+            packet.clear();
+            packet.extend(rays.iter().map(PacketRay::new));
+            queries.extend(rays.iter().map(&query));
+            self.traverse_packet_at(level, &packet, &mut queries, statistics);
+            for (lane, query) in queries.drain(..).enumerate() {
+                answer(index * N + lane, query);
             }
         }
     }
@@ -113,7 +112,7 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
             rays,
             &mut (),
             ClosestHit::new,
-            |index, query| hits[index] = query.and_then(|query| query.best()),
+            |index, query| hits[index] = query.best(),
         );
     }
 
@@ -129,7 +128,7 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
             rays,
             &mut (),
             AnyHit::new,
-            |index, query| answers[index] = query.is_some_and(|query| query.found()),
+            |index, query| answers[index] = query.found(),
         );
     }
 
@@ -144,7 +143,7 @@ pub trait PacketTraversal<const N: usize>: AccelerationStructure {
             rays,
             &mut (),
             AllHits::new,
-            |index, query| hits[index] = query.map_or_else(Vec::new, AllHits::into_sorted),
+            |index, query| hits[index] = query.into_sorted(),
         );
     }
 }
@@ -160,15 +159,17 @@ mod tests {
     }
 
     #[test]
-    fn empty_lanes_are_not_counted_as_rays() {
-        let ray = PreparedRay::new(&RaySegment::new([0.0; 3], [0.0, 0.0, 1.0])).unwrap();
-        let mut queries = [ClosestHit::new(&ray); 4];
+    fn queries_of_rays_that_can_hit_nothing_stay_as_they_are() {
+        let good = RaySegment::new([0.0; 3], [0.0, 0.0, 1.0]);
+        let rays = [good, RaySegment::new([0.0; 3], [0.0; 3]), good];
+        let mut queries = rays.each_ref().map(ClosestHit::new);
         let mut counters = TraversalCounters::default();
-        let rays = [Some(ray), None, Some(ray), None];
-        spheres().traverse_packet(&rays, &mut queries, &mut counters);
-        assert_eq!(counters.rays, 2);
+        let packet = rays.each_ref().map(PacketRay::new);
+        let traverse = PacketTraversal::<4>::traverse_packet;
+        traverse(&spheres(), &packet, &mut queries, &mut counters);
+        assert_eq!(counters.rays, 3);
         let found = queries.map(|query| query.best().is_some());
-        assert_eq!(found, [true, false, true, false]);
+        assert_eq!(found, [true, false, true]);
     }
 
     #[test]

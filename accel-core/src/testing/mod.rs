@@ -13,3 +13,4 @@ mod random;
 pub mod rays;
 #[cfg(feature = "proptest")]
 pub mod strategy;
+pub mod stress;

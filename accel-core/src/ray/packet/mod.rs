@@ -6,6 +6,7 @@
 //! ray in a packet meets the same boxes as the ray alone.
 
 mod bounds;
+mod packet_ray;
 mod ray_lanes;
 #[cfg(test)]
 mod tests;
@@ -17,12 +18,13 @@ use crate::geometry::Axis;
 use crate::simd::Lanes;
 
 pub use bounds::PacketBounds;
+pub use packet_ray::PacketRay;
 pub use ray_lanes::RayLanes;
 
 /// Rays in `VECTORS` vectors of lanes, made ready for traversal.
 #[derive(Clone, Debug)]
 pub struct RayPacket<'a, L, const VECTORS: usize> {
-    rays: &'a [Option<PreparedRay>],
+    rays: &'a [PacketRay],
     lanes: [RayLanes<L>; VECTORS],
     t_max: [L; VECTORS],
     shared: SharedFacts,
@@ -44,7 +46,7 @@ pub struct SharedFacts {
 #[derive(Debug)]
 pub struct PacketVector<'a, L> {
     /// The rays one by one, as many as there are lanes or fewer.
-    pub rays: &'a [Option<PreparedRay>],
+    pub rays: &'a [PacketRay],
     /// The same in lanes.
     pub lanes: &'a RayLanes<L>,
     /// Hits beyond this matter no more; minus infinity for lanes that are empty
@@ -55,46 +57,101 @@ pub struct PacketVector<'a, L> {
 }
 
 impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
-    /// Puts `rays` into lanes; ray `i` starts with `t_max(i)`.
+    /// Makes `rays` ready in lanes; ray `i` starts with `t_max(i)`. `None` if none
+    /// of them can hit anything.
     ///
     /// # Panics
-    /// If there are more rays than lanes, or no ray at all.
+    /// If there are more rays than lanes.
     #[inline(always)]
-    pub fn new(rays: &'a [Option<PreparedRay>], t_max: impl Fn(usize) -> f32) -> Self {
+    pub fn new(rays: &'a [PacketRay], t_max: impl Fn(usize) -> f32) -> Option<Self> {
         assert!(rays.len() <= VECTORS * L::COUNT, "a lane for every ray");
-        let first = rays.iter().flatten().next();
-        let first = first.expect("a packet has at least one ray");
-        // Empty lanes hold a ray of the packet, so that no bound depends on them.
+        // Rays of a packet mostly lean the same way; those that don't are made
+        // ready one by one.
+        let main = Axis::largest(rays.first()?.segment().direction);
+        let (lanes, ready) = RayLanes::prepare(rays, 0, main);
         let mut packet = Self {
             rays,
-            lanes: [RayLanes::splat(first); VECTORS],
+            lanes: [lanes; VECTORS],
             t_max: [L::splat(f32::NEG_INFINITY); VECTORS],
             shared: SharedFacts {
-                origin: Some(first.origin()),
-                signs: Some(Axis::ALL.map(|axis| first.is_negative(axis))),
-                shear_axis: Some(first.shear().axis),
+                origin: None,
+                signs: None,
+                shear_axis: Some(main),
             },
         };
-        let mut has_one_axis = true;
-        for (index, ray) in rays.iter().enumerate() {
-            if let Some(ray) = ray {
-                let (vector, lane) = (index / L::COUNT, index % L::COUNT);
-                packet.lanes[vector].set(lane, ray);
-                packet.t_max[vector].lanes_mut()[lane] = t_max(index);
-                has_one_axis &= ray.shear().axis == first.shear().axis;
+        let mut missing = [L::ALL & !ready; VECTORS];
+        for (vector, missing) in missing.iter_mut().enumerate() {
+            let first = vector * L::COUNT;
+            if vector > 0 {
+                let (lanes, ready) = RayLanes::prepare(rays, first, main);
+                packet.lanes[vector] = lanes;
+                *missing = L::ALL & !ready;
+            }
+            packet.t_max[vector] = L::from_fn(|lane| {
+                if first + lane < rays.len() {
+                    t_max(first + lane)
+                } else {
+                    f32::NEG_INFINITY
+                }
+            });
+        }
+        if missing.iter().any(|&missing| missing != 0) {
+            packet.set_one_by_one(&missing)?;
+        }
+        packet.shared.origin = packet.common_origin();
+        packet.shared.signs = packet.common_signs();
+        Some(packet)
+    }
+
+    /// Sets the lanes that are `missing`. Those without a ray that can hit
+    /// anything hold another ray of the packet, so that no bound depends on them.
+    #[cold]
+    #[inline(never)]
+    fn set_one_by_one(&mut self, missing: &[u32; VECTORS]) -> Option<()> {
+        let substitute = self.rays.iter().find_map(PacketRay::prepared)?;
+        for (vector, &missing) in missing.iter().enumerate() {
+            for lane in lanes_of(missing) {
+                let ray = self.rays.get(vector * L::COUNT + lane);
+                let ray = ray.and_then(PacketRay::prepared);
+                if ray.is_none() {
+                    self.t_max[vector].lanes_mut()[lane] = f32::NEG_INFINITY;
+                }
+                let ray = ray.unwrap_or(substitute);
+                self.lanes[vector].set(lane, ray);
+                let shear_axis = &mut self.shared.shear_axis;
+                *shear_axis = shear_axis.filter(|&axis| axis == ray.shear().axis);
             }
         }
-        let (mut has_one_origin, mut have_same_signs) = (true, true);
-        for lanes in &mut packet.lanes {
-            lanes.pad();
-            has_one_origin &= lanes.all_start_at(first.origin());
-            have_same_signs &= lanes.all_have_signs_of(first);
+        Some(())
+    }
+
+    #[inline(always)]
+    fn common_origin(&self) -> Option<Vec3> {
+        let [x, y, z] = &self.lanes[0].origin;
+        let origin = Vec3::new(x.lanes()[0], y.lanes()[0], z.lanes()[0]);
+        let mut is_common = true;
+        for lanes in &self.lanes {
+            is_common &= lanes.all_start_at(origin);
         }
-        let shared = &mut packet.shared;
-        shared.origin = shared.origin.filter(|_| has_one_origin);
-        shared.signs = shared.signs.filter(|_| have_same_signs);
-        shared.shear_axis = shared.shear_axis.filter(|_| has_one_axis);
-        packet
+        is_common.then_some(origin)
+    }
+
+    #[inline(always)]
+    fn common_signs(&self) -> Option<[bool; 3]> {
+        let mut signs = [false; 3];
+        for (axis, sign) in signs.iter_mut().enumerate() {
+            let (mut all, mut any) = (L::ALL, 0);
+            for lanes in &self.lanes {
+                let negative = lanes.near_reciprocal[axis].lt_mask(L::splat(0.0));
+                all &= negative;
+                any |= negative;
+            }
+            if any != 0 && all != L::ALL {
+                return None;
+            }
+            *sign = any != 0;
+        }
+        Some(signs)
     }
 
     /// What the rays have in common.
@@ -115,23 +172,21 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
         &self.lanes[vector]
     }
 
-    /// The directions of the rays of a vector, in lanes; empty lanes hold that of
-    /// another ray of the packet.
+    /// The directions of the rays of a vector, in lanes; zero in lanes that are empty
+    /// or answered. Computed here, so ask once.
     #[inline(always)]
     pub fn directions(&self, vector: usize) -> [L; 3] {
-        let mut directions = [L::splat(0.0); 3];
-        let Some(any) = self.rays.iter().flatten().next() else {
-            return directions;
+        let first = vector * L::COUNT;
+        let along = |axis: usize| {
+            L::from_fn(|lane| {
+                let is_empty = self.t_max[vector].lanes()[lane] == f32::NEG_INFINITY;
+                match self.rays.get(first + lane) {
+                    Some(ray) if !is_empty => ray.segment().direction[axis],
+                    _ => 0.0,
+                }
+            })
         };
-        let rays = self.rays.iter().skip(vector * L::COUNT);
-        let in_lanes = rays.chain(std::iter::repeat(&None)).take(L::COUNT);
-        for (lane, ray) in in_lanes.enumerate() {
-            let direction = ray.as_ref().unwrap_or(any).direction();
-            for axis in 0..3 {
-                directions[axis].lanes_mut()[lane] = direction[axis];
-            }
-        }
-        directions
+        [along(0), along(1), along(2)]
     }
 
     /// By lane, the `t` beyond which hits matter no more; minus infinity for
@@ -187,11 +242,11 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
     }
 }
 
-impl<L: Lanes> PacketVector<'_, L> {
-    /// The ray in `lane`, `None` if there is none.
+impl<'a, L: Lanes> PacketVector<'a, L> {
+    /// The ray in `lane` on its own, `None` if there is none that can hit anything.
     #[inline]
-    pub fn ray(&self, lane: usize) -> Option<&PreparedRay> {
-        self.rays.get(lane)?.as_ref()
+    pub fn ray(&self, lane: usize) -> Option<&'a PreparedRay> {
+        self.rays.get(lane)?.prepared()
     }
 
     /// Hits of `lane` beyond `t_max` matter no more.

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::SharedFacts;
-use crate::geometry::Aabb;
+use super::{PacketRay, SharedFacts};
+use crate::geometry::{Aabb, Axis};
 use crate::ray::PreparedRay;
-use crate::ray::prepared::{FAR_PAD, NEAR_PAD};
+use crate::ray::prepared::{FAR_PAD, LARGEST_RECIPROCAL, NEAR_PAD};
 use crate::simd::Lanes;
 
 /// As many rays as a vector has lanes, by coordinate.
@@ -24,46 +24,69 @@ pub struct RayLanes<L> {
 }
 
 impl<L: Lanes> RayLanes<L> {
-    /// `ray` in every lane, not padded yet.
+    /// Makes the rays from `first` on ready as [`PreparedRay::new`] does, all at
+    /// once; lanes without a ray hold the last one. Right only for the lanes of the
+    /// mask: rays that can hit something, have a usable reciprocal on every axis,
+    /// and are longest along `main`.
     #[inline(always)]
-    pub(super) fn splat(ray: &PreparedRay) -> Self {
-        let zero = L::splat(0.0);
-        let mut lanes = Self {
-            origin: [zero; 3],
-            near_reciprocal: [zero; 3],
-            far_reciprocal: [zero; 3],
-            t_min: L::splat(ray.t_min()),
-            shear: [L::splat(ray.shear().x), L::splat(ray.shear().y)],
-            along: L::splat(ray.shear().along),
-        };
+    pub(super) fn prepare(rays: &[PacketRay], first: usize, main: Axis) -> (Self, u32) {
+        let last = rays.len() - 1;
+        let ray = |lane: usize| rays[last.min(first + lane)].segment();
+        let origin = [
+            L::from_fn(|lane| ray(lane).origin.x),
+            L::from_fn(|lane| ray(lane).origin.y),
+            L::from_fn(|lane| ray(lane).origin.z),
+        ];
+        let [x, y, z] = [
+            L::from_fn(|lane| ray(lane).direction.x),
+            L::from_fn(|lane| ray(lane).direction.y),
+            L::from_fn(|lane| ray(lane).direction.z),
+        ];
+        let t_max = L::from_fn(|lane| ray(lane).t_max);
+        let given_t_min = L::from_fn(|lane| ray(lane).t_min);
+        let t_min = L::splat(0.0).max_or_keep(given_t_min);
+        let mut ready = finite_mask(origin) & finite_mask([x, y, z]);
+        ready &= given_t_min.lt_mask(L::splat(f32::INFINITY)) & t_min.le_mask(t_max);
+        ready &= longest_mask([x, y, z], main);
+
+        let one = L::splat(1.0);
+        let reciprocal = [one / x, one / y, one / z];
+        let (smallest, largest) = (L::splat(f32::MIN_POSITIVE), L::splat(LARGEST_RECIPROCAL));
+        let (near_pad, far_pad) = (L::splat(NEAR_PAD), L::splat(FAR_PAD));
+        let (mut near_reciprocal, mut far_reciprocal) = (reciprocal, reciprocal);
         for axis in 0..3 {
-            lanes.origin[axis] = L::splat(ray.origin()[axis]);
-            lanes.near_reciprocal[axis] = L::splat(ray.reciprocal()[axis]);
+            let magnitude = magnitude(reciprocal[axis]);
+            ready &= smallest.le_mask(magnitude) & magnitude.le_mask(largest);
+            near_reciprocal[axis] = reciprocal[axis] * near_pad;
+            far_reciprocal[axis] = reciprocal[axis] * far_pad;
         }
-        lanes
+        let [sideways, upward, along] = match main {
+            Axis::X => [y, z, x],
+            Axis::Y => [z, x, y],
+            Axis::Z => [x, y, z],
+        };
+        let lanes = Self {
+            origin,
+            near_reciprocal,
+            far_reciprocal,
+            t_min,
+            shear: [sideways / along, upward / along],
+            along,
+        };
+        (lanes, ready)
     }
 
-    /// Puts `ray` into `lane`, not padded yet.
-    #[inline(always)]
+    /// Puts `ray` into `lane`.
     pub(super) fn set(&mut self, lane: usize, ray: &PreparedRay) {
         for axis in 0..3 {
             self.origin[axis].lanes_mut()[lane] = ray.origin()[axis];
-            self.near_reciprocal[axis].lanes_mut()[lane] = ray.reciprocal()[axis];
+            self.near_reciprocal[axis].lanes_mut()[lane] = ray.near_reciprocal()[axis];
+            self.far_reciprocal[axis].lanes_mut()[lane] = ray.far_reciprocal()[axis];
         }
         self.t_min.lanes_mut()[lane] = ray.t_min();
         self.shear[0].lanes_mut()[lane] = ray.shear().x;
         self.shear[1].lanes_mut()[lane] = ray.shear().y;
         self.along.lanes_mut()[lane] = ray.shear().along;
-    }
-
-    /// Pads the reciprocals, as [`PreparedRay::new`] does.
-    #[inline(always)]
-    pub(super) fn pad(&mut self) {
-        for axis in 0..3 {
-            let reciprocal = self.near_reciprocal[axis];
-            self.near_reciprocal[axis] = reciprocal * L::splat(NEAR_PAD);
-            self.far_reciprocal[axis] = reciprocal * L::splat(FAR_PAD);
-        }
     }
 
     #[inline(always)]
@@ -74,21 +97,6 @@ impl<L: Lanes> RayLanes<L> {
             mask &= start.le_mask(self.origin[axis]) & self.origin[axis].le_mask(start);
         }
         mask == L::ALL
-    }
-
-    #[inline(always)]
-    pub(super) fn all_have_signs_of(&self, ray: &PreparedRay) -> bool {
-        let mut different = 0;
-        for axis in 0..3 {
-            let negative = self.near_reciprocal[axis].lt_mask(L::splat(0.0));
-            let expected = if ray.reciprocal()[axis] < 0.0 {
-                L::ALL
-            } else {
-                0
-            };
-            different |= negative ^ expected;
-        }
-        different == 0
     }
 
     /// The slab test where all directions have these `signs`: each axis' entry
@@ -150,4 +158,30 @@ impl<L: Lanes> RayLanes<L> {
         }
         (near, far)
     }
+}
+
+/// The lanes in which all three numbers are finite: a number times zero is zero
+/// or NaN.
+#[inline(always)]
+fn finite_mask<L: Lanes>([x, y, z]: [L; 3]) -> u32 {
+    let zero = L::splat(0.0);
+    (x * zero + y * zero + z * zero).le_mask(zero)
+}
+
+/// The lanes in which [`Axis::largest`] of the vectors is `axis`.
+#[inline(always)]
+fn longest_mask<L: Lanes>([x, y, z]: [L; 3], axis: Axis) -> u32 {
+    let (x, y, z) = (magnitude(x), magnitude(y), magnitude(z));
+    let is_x = y.le_mask(x) & z.le_mask(x);
+    let is_y = !is_x & z.le_mask(y);
+    match axis {
+        Axis::X => is_x,
+        Axis::Y => is_y,
+        Axis::Z => !(is_x | is_y),
+    }
+}
+
+#[inline(always)]
+fn magnitude<L: Lanes>(number: L) -> L {
+    number.max_or_keep(L::splat(0.0) - number)
 }

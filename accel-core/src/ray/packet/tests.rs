@@ -9,7 +9,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// Packets of `VECTORS` vectors against boxes: every lane, and the bounds.
 struct CompareWithSlabs<'a> {
-    rays: &'a [Option<PreparedRay>],
+    rays: &'a [PacketRay],
     boxes: &'a [Aabb],
 }
 
@@ -18,11 +18,20 @@ impl CompareWithSlabs<'_> {
     fn compare<L: Lanes, const VECTORS: usize>(&self) -> usize {
         let mut culled = 0;
         for rays in self.rays.chunks(VECTORS * L::COUNT) {
-            let t_max = |index: usize| rays[index].map_or(0.0, |ray| ray.t_max());
-            if rays.iter().all(Option::is_none) {
+            let t_max = |index: usize| rays[index].segment().t_max;
+            let Some(packet) = RayPacket::<L, VECTORS>::new(rays, t_max) else {
+                assert!(rays.iter().all(|ray| ray.prepared().is_none()));
                 continue;
+            };
+            for (index, ray) in rays.iter().enumerate() {
+                let (lanes, lane) = (packet.lanes(index / L::COUNT), index % L::COUNT);
+                let expected = ray.prepared().map(numbers_of);
+                let actual = numbers_in(lanes, lane);
+                assert!(
+                    expected.is_none_or(|expected| expected == actual),
+                    "{ray:?}"
+                );
             }
-            let packet = RayPacket::<L, VECTORS>::new(rays, t_max);
             let packet_bounds = packet.bounds();
             for bounds in self.boxes {
                 let plane = |axis: usize, high| {
@@ -37,7 +46,8 @@ impl CompareWithSlabs<'_> {
                     let (near, mask) = packet.meets(vector, plane);
                     for lane in 0..L::COUNT {
                         let met = mask >> lane & 1 == 1;
-                        let Some(Some(ray)) = rays.get(vector * L::COUNT + lane) else {
+                        let ray = rays.get(vector * L::COUNT + lane);
+                        let Some(ray) = ray.and_then(PacketRay::prepared) else {
                             assert!(!met, "an empty lane meets nothing");
                             continue;
                         };
@@ -70,12 +80,36 @@ impl SimdWork for CompareWithSlabs<'_> {
     }
 }
 
-fn prepared(rays: &[RaySegment]) -> Vec<Option<PreparedRay>> {
-    rays.iter().map(PreparedRay::new).collect()
+/// All that a lane holds, by its bits.
+fn numbers_in<L: Lanes>(lanes: &RayLanes<L>, lane: usize) -> [[u32; 3]; 4] {
+    let bits = |numbers: &[L; 3]| numbers.map(|number| number.lanes()[lane].to_bits());
+    let [x, y] = lanes.shear;
+    [
+        bits(&lanes.near_reciprocal),
+        bits(&lanes.far_reciprocal),
+        bits(&[x, y, lanes.along]),
+        bits(&[lanes.origin[0], lanes.origin[1], lanes.t_min]),
+    ]
+}
+
+/// What a lane should hold.
+fn numbers_of(ray: &PreparedRay) -> [[u32; 3]; 4] {
+    let (shear, origin) = (ray.shear(), ray.origin());
+    [
+        ray.near_reciprocal().to_array(),
+        ray.far_reciprocal().to_array(),
+        [shear.x, shear.y, shear.along],
+        [origin.x, origin.y, ray.t_min()],
+    ]
+    .map(|numbers| numbers.map(f32::to_bits))
+}
+
+fn packet_rays(rays: &[RaySegment]) -> Vec<PacketRay> {
+    rays.iter().map(PacketRay::new).collect()
 }
 
 #[test]
-fn every_lane_is_the_slab_test_of_its_ray_and_bounds_contain_all() {
+fn every_lane_holds_and_meets_what_its_ray_does_and_bounds_contain_all() {
     let scene = families::find("axis-grid").unwrap().scene(1, 200);
     let boxes: Vec<Aabb> = scene.iter().map(|t| Aabb::around(&t.vertices())).collect();
     let mut random = Pcg64Mcg::seed_from_u64(3);
@@ -93,7 +127,7 @@ fn every_lane_is_the_slab_test_of_its_ray_and_bounds_contain_all() {
         let direction = [1.0, step as f32 * 1e-3, 0.5 - step as f32 * 2e-3];
         rays.push(RaySegment::new([-5.0, 0.1, 0.2], direction));
     }
-    let rays = prepared(&rays);
+    let rays = packet_rays(&rays);
     for level in SimdLevel::available() {
         let culled = level.run(CompareWithSlabs {
             rays: &rays,
@@ -107,8 +141,9 @@ fn every_lane_is_the_slab_test_of_its_ray_and_bounds_contain_all() {
 fn shared_facts_are_those_of_all_rays() {
     let along = |direction: [f32; 3]| RaySegment::new([1.0, 2.0, 3.0], direction);
     let facts = |rays: &[RaySegment]| {
-        let rays = prepared(rays);
-        *RayPacket::<F32x4, 1>::new(&rays, |_| 1.0).shared()
+        let rays = packet_rays(rays);
+        let packet = RayPacket::<F32x4, 1>::new(&rays, |_| 1.0);
+        *packet.expect("rays that can hit").shared()
     };
     let [first, second] = [along([2.0, -1.0, 0.0]), along([3.0, -0.5, 1.0])];
     let shared = facts(&[first, second]);

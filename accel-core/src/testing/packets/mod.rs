@@ -7,7 +7,6 @@ mod ray_sets;
 use std::fmt;
 
 use super::agreement::{Disagreement, Expected};
-use crate::ray::PreparedRay;
 use crate::simd::SimdLevel;
 use crate::statistics::TraversalCounters;
 use crate::{PacketTraversal, RaySegment};
@@ -77,9 +76,9 @@ fn check_query<A: PacketTraversal<N>, const N: usize>(
     let rays: &[RaySegment] = &expected.rays;
     let mut answers = vec![None; rays.len()];
     let mut counters = TraversalCounters::default();
-    let query = |ray: &PreparedRay| OneQuery::new(kind, ray);
+    let query = |ray: &RaySegment| OneQuery::new(kind, ray);
     structure.query_packets(level, rays, &mut counters, query, |index, query| {
-        answers[index] = Some(query.map_or_else(Vec::new, OneQuery::into_hits));
+        answers[index] = Some(query.into_hits());
     });
     assert_eq!(
         counters.rays,

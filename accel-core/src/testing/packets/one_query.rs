@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use crate::query::{AllHits, AnyHit, ClosestHit, Filtered, Hit, Query};
-use crate::ray::PreparedRay;
+use crate::ray::RaySegment;
 use crate::testing::agreement::{HitBits, bits};
 
 /// Which query.
@@ -64,7 +64,7 @@ pub(super) enum OneQuery {
 }
 
 impl OneQuery {
-    pub(super) fn new(kind: Kind, ray: &PreparedRay) -> Self {
+    pub(super) fn new(kind: Kind, ray: &RaySegment) -> Self {
         match kind {
             Kind::Closest => Self::Closest(ClosestHit::new(ray)),
             Kind::Any => Self::Any(AnyHit::new(ray)),
