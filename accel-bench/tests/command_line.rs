@@ -221,3 +221,20 @@ fn embedded_scenes_are_listed_and_exported() {
         596
     );
 }
+
+#[test]
+fn paper_bsp_sets_published_figures_and_pictures_beside_measured_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec!["paper", "bsp", "cylinder@100"];
+    arguments.extend(QUICK);
+    arguments.push("report");
+    let output = run(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    let expected = ["Table 1", "Table 2", "Table 3", "C_i", "Hot spot", "182.4"];
+    for words in expected {
+        assert!(printed.contains(words), "no `{words}` in {printed}");
+    }
+    let page = fs::read_to_string(folder.path().join("report/index.html")).unwrap();
+    assert_eq!(page.matches("data:image/png;base64,").count(), 3);
+}

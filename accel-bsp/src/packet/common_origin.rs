@@ -17,7 +17,7 @@
 //! case of their own.
 //!
 //! `r` is 32 units of rounding of the speed's terms. A hit is off by up to 16
-//! ([`Tolerance::SAFE`](crate::crossing::Tolerance)), `b` by 3, and the quotients by
+//! (see [`crate::crossing`]), `b` by 3, and the quotients by
 //! 4 of themselves, which within the cell is no more than 8 of `b t`. Where a number
 //! overflows, what follows is infinite on the safe side, or NaN, which constrains
 //! nothing.
@@ -161,7 +161,6 @@ impl<L: Lanes> CrossingLanes<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::crossing::Tolerance;
     use accel_core::simd::F32x4;
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
@@ -210,7 +209,8 @@ mod tests {
         let (normal, direction) = (case.normal.as_dvec3(), direction.as_dvec3());
         let start = normal.dot(case.origin.as_dvec3()) - f64::from(case.offset);
         let distance = (start + f64::from(t) * normal.dot(direction)) * start.signum();
-        let off = Tolerance::SAFE.rounding * normal.abs().dot(direction.abs()) * f64::from(t);
+        let off =
+            16.0 * f64::from(UNIT_ROUNDOFF) * normal.abs().dot(direction.abs()) * f64::from(t);
         [distance < -(1.0 + off), distance > 1.0 + off]
     }
 

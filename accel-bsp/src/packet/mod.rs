@@ -1,6 +1,7 @@
 //! Packets through the BSP tree (Ize 2008, section 4.2). Planes may have any
 //! orientation, so the signs of directions decide no order; a common origin does:
-//! every ray that crosses a plane crosses it from the origin's side.
+//! every ray that crosses a plane crosses it from the origin's side. Packets of other
+//! rays are traced ray by ray.
 
 mod common_origin;
 
