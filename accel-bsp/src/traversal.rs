@@ -17,7 +17,7 @@ use accel_core::layout::LeafStorage;
 use accel_core::query::{Hit, Query};
 use accel_core::ray::max_or_keep;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
@@ -39,11 +39,28 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
     if !(near <= whole.far && near <= query.t_max()) {
         return;
     }
-    let (near, far) = (f64::from(near), f64::from(whole.far.min(f32::MAX)));
+    let part = RayPart {
+        node: 0,
+        near,
+        far: whole.far,
+    };
     let ray_in_double = DoubleRay::new(ray, tolerance);
+    let _ = traverse_below::<P, T, Q, S>(tree, part, &ray_in_double, query, statistics);
+}
+
+/// Traverses the part of the tree below a node; breaks when the query does.
+#[inline]
+pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
+    tree: &BspTree<P>,
+    part: RayPart,
+    ray_in_double: &DoubleRay<'_>,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
+    let (near, far) = (f64::from(part.near), f64::from(part.far.min(f32::MAX)));
     let mut stack = TraversalStack::new();
     let mut segment = Segment {
-        node: 0,
+        node: part.node,
         near,
         far,
         planes: T::of_ray(near, far),
@@ -69,13 +86,10 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
             }
             leaf => {
                 statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
-                let tested = test_leaf(tree, leaf, &segment, &ray_in_double, query, statistics);
-                if tested.is_break() {
-                    return;
-                }
+                test_leaf(tree, leaf, &segment, ray_in_double, query, statistics)?;
                 match stack.pop_within(query.t_max()) {
                     Some(next) => segment = next,
-                    None => return,
+                    None => return ControlFlow::Continue(()),
                 }
                 continue;
             }
