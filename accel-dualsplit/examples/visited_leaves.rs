@@ -11,7 +11,7 @@
 //! number.
 #![allow(clippy::print_stdout)]
 
-#[path = "../tests/recorder/mod.rs"]
+#[path = "../tests/suite/recorder.rs"]
 mod recorder;
 
 use accel_core::testing::mesh_file;

@@ -2,11 +2,9 @@
 //! BIH and H-tree those of their BVH, no more and no fewer; *similar* trees at least
 //! these.
 
-mod recorder;
-
+use crate::recorder::{Trees, recorders};
 use accel_core::testing::{families, rays};
 use accel_dualsplit::{BvhBuilder, LeafRule, ObjectSplit};
-use recorder::{Trees, recorders};
 
 #[test]
 fn identical_trees_visit_the_leaves_of_their_bvh_and_similar_ones_at_least_these() {
