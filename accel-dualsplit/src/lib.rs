@@ -38,7 +38,7 @@
 //! [`DualSplitConverter`] (`convert`) chooses splitting axes (`splitting`) and
 //! carving nodes (`carving`, equation 1) and writes them (`packing`) in the words
 //! of `codec`, where the headers are tabulated; `traversal` walks them; `statistics`,
-//! `validate` and `persistence` follow. `node_set` tells a dual-split tree, a BIH (`bih`) and an
+//! `refit`, `validate` and `persistence` follow. `direct` builds without a BVH's say. `node_set` tells a dual-split tree, a BIH (`bih`) and an
 //! H-tree (`h_tree`) apart.
 //!
 //! # Complexity
@@ -49,10 +49,12 @@
 mod bih;
 mod codec;
 mod convert;
+mod direct;
 mod error;
 mod h_tree;
 mod node_set;
 mod persistence;
+mod refit;
 mod statistics;
 mod traversal;
 mod tree;
@@ -61,6 +63,7 @@ mod validate;
 pub use bih::{Bih, BihConverter, BihNodes};
 pub use codec::{LEAF_BYTES, NODE_BYTES};
 pub use convert::{CarvingCosts, DualSplitConverter, Partitioning};
+pub use direct::DualSplitBuilder;
 pub use error::{PlaneTreeLoadError, WordsError};
 pub use h_tree::{BoundingCosts, HTree, HTreeConverter, HTreeNodes};
 pub use node_set::{DualSplitNodes, NodeSet};
@@ -74,6 +77,6 @@ pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_m
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
     ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PreparedRay, Primitive, Query, Ray,
-    RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
+    RaySegment, RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
     TreeStatistics, Triangle, ValidationError, glam,
 };

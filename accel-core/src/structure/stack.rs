@@ -40,6 +40,18 @@ impl<N: Copy> TraversalStack<N> {
         self.entries.push(StackEntry { node, near });
     }
 
+    /// As [`push`](Self::push) if `is_put_off`, without a branch on it: for a
+    /// condition that is hard to predict.
+    ///
+    /// # Panics
+    /// As [`push`](Self::push), whether it is put off or not.
+    #[inline]
+    pub fn push_if(&mut self, is_put_off: bool, node: N, near: f32) {
+        self.push(node, near);
+        let kept = self.entries.len() - usize::from(!is_put_off);
+        self.entries.truncate(kept);
+    }
+
     /// The node put off last that the ray enters no later than `t_max`; those
     /// entered later are dropped. Strictly later: a hit there could still tie.
     #[inline]
@@ -112,6 +124,7 @@ mod tests {
         let mut stack = TraversalStack::new();
         for (node, near) in [(1, 5.0), (2, 3.0), (3, 4.0)] {
             stack.push(node, near);
+            stack.push_if(false, 10 + node, near);
         }
         assert_eq!(stack.pop_within(3.0), Some(2));
         assert_eq!(stack.pop_within(4.0), None);

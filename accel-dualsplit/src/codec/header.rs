@@ -4,8 +4,8 @@ use accel_core::Aabb;
 use accel_core::geometry::Axis;
 
 use super::{
-    AXES_MASK, BOUNDING_AXES, FirstWord, KIND_MASK, LEAF, LEAF_WORDS, MAX_OFFSET, OFFSET_BITS,
-    SEVERAL_AXES, SINGLE,
+    AXES_MASK, BOUNDING_AXES, FirstWord, KIND_MASK, LEAF, LEAF_WORDS, MAX_OFFSET, MOST_PLANES,
+    OFFSET_BITS, SEVERAL_AXES, SINGLE,
 };
 
 /// One of the six planes of a box: an axis and a side.
@@ -20,6 +20,12 @@ impl BoxPlane {
     #[inline]
     pub(crate) fn index(self) -> usize {
         2 * self.axis.index() + usize::from(self.is_high)
+    }
+
+    /// Where the plane is on a box.
+    fn of(self, bounds: &Aabb) -> f32 {
+        self.axis
+            .of(if self.is_high { bounds.max } else { bounds.min })
     }
 
     /// What is left of `region` with this plane at `position`.
@@ -73,6 +79,22 @@ impl CarvingPlanes {
             Self::Single(_) | Self::Dual(..) => 2,
             Self::Bounding(bounded) => 2 * bounded.axes().len(),
         }
+    }
+
+    /// The positions that carve to `bounds`: as many as there are planes, then zeros.
+    pub(crate) fn around(self, bounds: &Aabb) -> [f32; MOST_PLANES] {
+        let mut positions = [0.0; MOST_PLANES];
+        let pair = |axis: Axis| [axis.of(bounds.max), axis.of(bounds.min)];
+        match self {
+            Self::Single(axis) => positions[..2].copy_from_slice(&pair(axis)),
+            Self::Dual(a, b) => positions[..2].copy_from_slice(&[a.of(bounds), b.of(bounds)]),
+            Self::Bounding(bounded) => {
+                for (&axis, place) in bounded.axes().iter().zip(positions.chunks_exact_mut(2)) {
+                    place.copy_from_slice(&pair(axis));
+                }
+            }
+        }
+        positions
     }
 
     /// What is left of `region` with the planes at these positions.

@@ -1,6 +1,6 @@
 //! The words of a tree's nodes.
 
-use super::PADDING;
+use super::{LEAF_WORDS, PADDING};
 
 /// The most words that a tree may have: positions take 31 bits.
 pub(crate) const MAX_WORDS: usize = (1 << 31) - 1;
@@ -23,6 +23,14 @@ impl NodeWords {
     #[inline(always)]
     pub(crate) fn nodes(&self) -> &[u32] {
         &self.0[..self.0.len() - PADDING]
+    }
+
+    /// Moves the planes of the node at `position`.
+    pub(crate) fn set_planes(&mut self, position: usize, planes: &[f32]) {
+        let own = &mut self.0[position + LEAF_WORDS..];
+        for (word, plane) in own.iter_mut().zip(planes) {
+            *word = plane.to_bits();
+        }
     }
 
     /// The nodes and the padding.

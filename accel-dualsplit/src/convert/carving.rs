@@ -20,7 +20,7 @@ pub(super) struct Carving {
 
 /// Nested carving nodes, and what is left when they have carved.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CarvingPlan {
+pub(crate) struct CarvingPlan {
     levels: [Option<Carving>; MAX_LEVELS],
     pub region: Aabb,
     /// Equation 1, times the area of the parent: areas times costs.
@@ -45,7 +45,7 @@ impl CarvingPlan {
     /// The cheapest way to carve `region` towards `target`, the box of
     /// `references` references; `None` where none costs less than `limit`.
     pub(super) fn cheapest(
-        rules: &CarvingRules,
+        choices: &CarvingChoices,
         region: Aabb,
         target: Aabb,
         references: u32,
@@ -57,7 +57,7 @@ impl CarvingPlan {
         let target = region.intersection(&target);
         let references = f64::from(references);
         let mut search = Search {
-            rules,
+            choices,
             target,
             references,
             least_tests: references * target.half_area(),
@@ -69,12 +69,63 @@ impl CarvingPlan {
     }
 }
 
+/// What may carve, by what there is to carve: worked out once a conversion, since
+/// every node asks.
+pub(crate) struct CarvingChoices {
+    is_similar: bool,
+    /// For every set of loose planes.
+    by_loose: Vec<Vec<Choice>>,
+}
+
+/// A carving node that is worth a try.
+#[derive(Clone, Copy)]
+struct Choice {
+    planes: CarvingPlanes,
+    /// What visiting it costs.
+    sigma: f64,
+    /// The planes that it leaves loose, and the fewest nodes that carve those.
+    rest: LoosePlanes,
+    levels_for_rest: usize,
+}
+
+impl CarvingChoices {
+    pub(crate) fn new(rules: &CarvingRules) -> Self {
+        let costs = &rules.costs;
+        let choices = |loose: LoosePlanes| {
+            let choice = |planes| {
+                let rest = loose.without(planes);
+                Choice {
+                    planes,
+                    sigma: costs.sigma(planes),
+                    rest,
+                    levels_for_rest: rest.fewest_levels(costs),
+                }
+            };
+            loose.carving_nodes(costs).map(choice).collect()
+        };
+        Self {
+            is_similar: rules.partitioning == Partitioning::Similar,
+            by_loose: (0..LoosePlanes::SETS)
+                .map(LoosePlanes)
+                .map(choices)
+                .collect(),
+        }
+    }
+
+    fn of(&self, loose: LoosePlanes) -> &[Choice] {
+        &self.by_loose[usize::from(loose.0)]
+    }
+}
+
 /// The planes of a region that lie outside a target: a bit each, by
 /// [`BoxPlane::index`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct LoosePlanes(u8);
 
 impl LoosePlanes {
+    /// How many sets there are.
+    const SETS: u8 = 1 << 6;
+
     fn between(region: &Aabb, target: &Aabb) -> Self {
         let mut bits = 0;
         for axis in Axis::ALL {
@@ -166,7 +217,7 @@ impl LoosePlanes {
 /// Walks all configurations of up to three nested carving nodes, leaving out
 /// those that can't cost less than the best.
 struct Search<'a> {
-    rules: &'a CarvingRules,
+    choices: &'a CarvingChoices,
     /// Inside the region.
     target: Aabb,
     references: f64,
@@ -181,7 +232,8 @@ impl Search<'_> {
     /// `plan` has carved down to its region, of half area `area`, for its cost,
     /// and left `loose`.
     fn visit(&mut self, plan: &CarvingPlan, area: f64, loose: LoosePlanes, level: usize) {
-        let is_similar = self.rules.partitioning == Partitioning::Similar;
+        let choices = self.choices;
+        let is_similar = choices.is_similar;
         if loose.is_empty() || is_similar {
             let cost = plan.cost + area * self.references;
             if cost < self.limit {
@@ -193,17 +245,15 @@ impl Search<'_> {
         if loose.is_empty() || levels_left == 0 {
             return;
         }
-        let costs = &self.rules.costs;
-        for planes in loose.carving_nodes(costs) {
-            let cost = plan.cost + area * costs.sigma(planes);
+        for choice in choices.of(loose) {
+            let cost = plan.cost + area * choice.sigma;
             if cost + self.least_tests >= self.limit {
                 continue;
             }
-            let still_loose = loose.without(planes);
-            if !is_similar && still_loose.fewest_levels(costs) >= levels_left {
+            if !is_similar && choice.levels_for_rest >= levels_left {
                 continue;
             }
-            let carving = Carving::towards(&self.target, planes);
+            let carving = Carving::towards(&self.target, choice.planes);
             let mut carved = CarvingPlan {
                 region: carving.carve(plan.region),
                 cost,
@@ -211,7 +261,7 @@ impl Search<'_> {
             };
             carved.levels[level] = Some(carving);
             let area = carved.region.half_area();
-            self.visit(&carved, area, still_loose, level + 1);
+            self.visit(&carved, area, choice.rest, level + 1);
         }
     }
 }
@@ -219,27 +269,10 @@ impl Search<'_> {
 impl Carving {
     /// The node that carves to `target` with these planes.
     fn towards(target: &Aabb, planes: CarvingPlanes) -> Self {
-        let at = |plane: BoxPlane| {
-            plane.axis.of(if plane.is_high {
-                target.max
-            } else {
-                target.min
-            })
-        };
-        let mut positions = [0.0; MOST_PLANES];
-        let (first_two, pairs) = (&mut positions[..2], |axis: Axis| {
-            [axis.of(target.max), axis.of(target.min)]
-        });
-        match planes {
-            CarvingPlanes::Single(axis) => first_two.copy_from_slice(&pairs(axis)),
-            CarvingPlanes::Dual(a, b) => first_two.copy_from_slice(&[at(a), at(b)]),
-            CarvingPlanes::Bounding(bounded) => {
-                for (axis, pair) in bounded.axes().iter().zip(positions.chunks_exact_mut(2)) {
-                    pair.copy_from_slice(&pairs(*axis));
-                }
-            }
+        Self {
+            planes,
+            positions: planes.around(target),
         }
-        Self { planes, positions }
     }
 
     /// The positions that the node stores.
@@ -267,8 +300,14 @@ mod tests {
             partitioning,
             costs: NodeCosts::from(CarvingCosts::default()),
         };
-        CarvingPlan::cheapest(&rules, region, target, references, f64::INFINITY)
-            .expect("some plan is finite")
+        CarvingPlan::cheapest(
+            &CarvingChoices::new(&rules),
+            region,
+            target,
+            references,
+            f64::INFINITY,
+        )
+        .expect("some plan is finite")
     }
 
     #[test]

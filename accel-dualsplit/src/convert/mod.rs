@@ -27,6 +27,9 @@ use crate::tree::{DualSplitTree, PlaneTree};
 use packing::Packing;
 use sizes::SubtreeSizes;
 
+pub(crate) use carving::CarvingChoices;
+pub(crate) use splitting::{SplittingPlan, Weighed};
+
 /// Converts a [`Bvh`], whoever built it, to a [`DualSplitTree`].
 ///
 /// ```
@@ -94,10 +97,7 @@ impl DualSplitConverter {
     /// more than 26 bits, [`BuildError::BudgetExceeded`],
     /// [`BuildError::InvalidSetting`].
     pub fn convert<P: Primitive>(&self, bvh: &Bvh<P>) -> Result<DualSplitTree<P>, BuildError> {
-        NodeCosts::check(&[
-            ("carving_costs.single_axis", self.carving_costs.single_axis),
-            ("carving_costs.dual_axis", self.carving_costs.dual_axis),
-        ])?;
+        NodeCosts::check_carving(&self.carving_costs)?;
         let rules = CarvingRules {
             partitioning: self.partitioning,
             costs: self.carving_costs.into(),
@@ -134,6 +134,14 @@ impl From<CarvingCosts> for NodeCosts {
 }
 
 impl NodeCosts {
+    /// Checks the costs of a dual-split tree.
+    pub(crate) fn check_carving(costs: &CarvingCosts) -> Result<(), BuildError> {
+        Self::check(&[
+            ("carving_costs.single_axis", costs.single_axis),
+            ("carving_costs.dual_axis", costs.dual_axis),
+        ])
+    }
+
     /// Checks costs, each with the name of its setting.
     pub(crate) fn check(costs: &[(&'static str, f64)]) -> Result<(), BuildError> {
         for &(setting, cost) in costs {
@@ -174,7 +182,8 @@ impl CarvingRules {
             Some((root, bounds)) => {
                 budget.check_bytes(packing::most_bytes(bvh))?;
                 let sizes = SubtreeSizes::new(bvh, root);
-                Packing::new(self, bvh, &sizes).pack(root, bounds)?
+                let choices = CarvingChoices::new(self);
+                Packing::new(&choices, bvh, &sizes).pack(root, bounds)?
             }
         };
         if words.len() > MAX_WORDS {

@@ -11,8 +11,7 @@ use accel_core::build::join;
 use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
-use super::CarvingRules;
-use super::carving::{Carving, CarvingPlan};
+use super::carving::{Carving, CarvingChoices, CarvingPlan};
 use super::sizes::{SizedNode, SubtreeSizes};
 use super::splitting::SplittingPlan;
 use crate::codec::{Header, LEAF_WORDS, MAX_OFFSET, NODE_WORDS};
@@ -34,7 +33,7 @@ pub(super) fn most_bytes<P: Primitive>(bvh: &Bvh<P>) -> usize {
 }
 
 pub(super) struct Packing<'a, P: Primitive> {
-    rules: &'a CarvingRules,
+    choices: &'a CarvingChoices,
     bvh: &'a Bvh<P>,
     sizes: &'a SubtreeSizes,
 }
@@ -48,8 +47,16 @@ struct Reserved {
 }
 
 impl<'a, P: Primitive> Packing<'a, P> {
-    pub(super) fn new(rules: &'a CarvingRules, bvh: &'a Bvh<P>, sizes: &'a SubtreeSizes) -> Self {
-        Self { rules, bvh, sizes }
+    pub(super) fn new(
+        choices: &'a CarvingChoices,
+        bvh: &'a Bvh<P>,
+        sizes: &'a SubtreeSizes,
+    ) -> Self {
+        Self {
+            choices,
+            bvh,
+            sizes,
+        }
     }
 
     pub(super) fn pack(&self, root: NodeHandle, bounds: Aabb) -> Result<Vec<u32>, BuildError> {
@@ -149,7 +156,7 @@ impl<'a, P: Primitive> Packing<'a, P> {
             }
             BvhNode::Inner { bounds, children } => {
                 let children = self.sizes.children(self.bvh, node, children);
-                let split = SplittingPlan::cheapest(self.rules, plan.region, bounds, children);
+                let split = SplittingPlan::cheapest(self.choices, plan.region, bounds, children);
                 let [(first, first_plan), (second, second_plan)] = split.children;
                 let header = Header::Splitting {
                     axis: split.axis,
@@ -233,6 +240,7 @@ mod tests {
 
     use super::*;
     use crate::codec::NodeWords;
+    use crate::convert::CarvingRules;
     use crate::{CarvingCosts, DualSplitNodes, DualSplitTree, Partitioning, check_words};
 
     #[test]
@@ -274,7 +282,8 @@ mod tests {
             costs: CarvingCosts::default().into(),
         };
         let sizes = SubtreeSizes::new(&bvh, handle);
-        let packing = Packing::new(&rules, &bvh, &sizes);
+        let choices = CarvingChoices::new(&rules);
+        let packing = Packing::new(&choices, &bvh, &sizes);
         let root = Reserved {
             position: 0,
             node: sizes.root(&bvh, handle),

@@ -6,6 +6,8 @@ use accel_core::build::join;
 use accel_core::layout::LeafStorage;
 use accel_core::{AccelerationStructure, Primitive};
 
+use super::splitting::Weighed;
+
 /// Sizes of all inner nodes, in depth-first order: an inner left child follows
 /// its parent, and an inner right child all that is below the left one.
 pub(super) struct SubtreeSizes(Vec<InnerSize>);
@@ -26,6 +28,12 @@ pub(super) struct SizedNode {
     /// Its place among the inner nodes, where that of the next one would be for a
     /// leaf.
     index: usize,
+}
+
+impl Weighed for SizedNode {
+    fn references(&self) -> u32 {
+        self.references
+    }
 }
 
 /// Subtrees this far below the root are measured by one thread each.

@@ -4,45 +4,61 @@
 use accel_core::Aabb;
 use accel_core::geometry::Axis;
 
-use super::CarvingRules;
-use super::carving::CarvingPlan;
-use super::sizes::SizedNode;
+use super::carving::{CarvingChoices, CarvingPlan};
+
+/// A child to be, of which equation 1 wants to know one thing.
+pub(crate) trait Weighed: Copy {
+    /// References below it: T of equation 1.
+    fn references(&self) -> u32;
+}
 
 /// A splitting node to be.
-pub(super) struct SplittingPlan {
+pub(crate) struct SplittingPlan<C> {
     pub axis: Axis,
     /// The high bound of the first child and the low bound of the second.
     pub positions: [f32; 2],
     /// The first child and the second, and how each is carved.
-    pub children: [(SizedNode, CarvingPlan); 2],
+    pub children: [(C, CarvingPlan); 2],
 }
 
-impl SplittingPlan {
+impl<C: Weighed> SplittingPlan<C> {
     /// Splits what is left of space, `region`, between two children with these
     /// boxes.
-    pub(super) fn cheapest(
-        rules: &CarvingRules,
+    pub(crate) fn cheapest(
+        choices: &CarvingChoices,
         region: Aabb,
         bounds: [Aabb; 2],
-        children: [SizedNode; 2],
+        children: [C; 2],
     ) -> Self {
+        let best = Self::below(choices, region, bounds, children, f64::INFINITY);
+        best.expect("costs are finite, so the first axis has a plan")
+    }
+
+    /// As [`cheapest`](Self::cheapest); `None` unless it costs less than `limit`.
+    pub(crate) fn below(
+        choices: &CarvingChoices,
+        region: Aabb,
+        bounds: [Aabb; 2],
+        children: [C; 2],
+        limit: f64,
+    ) -> Option<Self> {
         let mut best: Option<Self> = None;
         for axis in Axis::ALL {
-            let limit = best.as_ref().map_or(f64::INFINITY, Self::cost);
-            let along = Self::along(rules, axis, region, bounds, children, limit);
+            let limit = best.as_ref().map_or(limit, Self::cost);
+            let along = Self::along(choices, axis, region, bounds, children, limit);
             best = along.or(best);
         }
-        best.expect("costs are finite, so the first axis has a plan")
+        best
     }
 
     /// The children are ordered by their centres, so that each inherits the bound
     /// of the region on its own side. `None` unless this costs less than `limit`.
     fn along(
-        rules: &CarvingRules,
+        choices: &CarvingChoices,
         axis: Axis,
         region: Aabb,
         bounds: [Aabb; 2],
-        children: [SizedNode; 2],
+        children: [C; 2],
         limit: f64,
     ) -> Option<Self> {
         let is_swapped = bounds[1].center_along(axis) < bounds[0].center_along(axis);
@@ -55,10 +71,10 @@ impl SplittingPlan {
         let plan = |side: usize, limit: f64| {
             let child = children[order[side]];
             let plan = CarvingPlan::cheapest(
-                rules,
+                choices,
                 regions[side],
                 bounds[order[side]],
-                child.references,
+                child.references(),
                 limit,
             )?;
             Some((child, plan))
@@ -72,7 +88,8 @@ impl SplittingPlan {
         })
     }
 
-    fn cost(&self) -> f64 {
+    /// Equation 1 for both children, times the area of the region.
+    pub(crate) fn cost(&self) -> f64 {
         self.children.iter().map(|(_, plan)| plan.cost).sum()
     }
 }

@@ -79,13 +79,13 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
             let [closer, farther] = axis.in_order(first, N::first_child_words(node));
             let meets_farther = farther_near <= far;
             if near <= nearer_far {
-                if meets_farther {
-                    let put_off = PutOff {
-                        position: farther,
-                        far,
-                    };
-                    stack.push(put_off, farther_near);
-                }
+                // Whether both are met is hard to predict, and the way on is the
+                // same: no branch.
+                let put_off = PutOff {
+                    position: farther,
+                    far,
+                };
+                stack.push_if(meets_farther, put_off, farther_near);
                 (position, far) = (closer, nearer_far);
                 continue;
             }

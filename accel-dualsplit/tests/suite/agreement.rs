@@ -6,8 +6,9 @@ use accel_core::testing::agreement::Expected;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
 use accel_core::testing::{families, rays, strategy};
 use accel_dualsplit::{
-    AccelerationStructure, Bvh, BvhBuilder, CarvingCosts, DualSplitConverter, InvalidPrimitives,
-    LeafRule, ObjectSplit, Partitioning, Sphere, Triangle,
+    AccelerationStructure, BuildError, Bvh, BvhBuilder, CarvingCosts, DualSplitBuilder,
+    DualSplitConverter, DualSplitTree, InvalidPrimitives, LeafRule, ObjectSplit, Partitioning,
+    Sphere, Triangle,
 };
 use accel_sbvh::SbvhBuilder;
 use proptest::prelude::*;
@@ -23,30 +24,30 @@ const PART: Effort = Effort {
 
 const BOTH: [Partitioning; 2] = [Partitioning::Identical, Partitioning::Similar];
 
-/// Checks both partitionings of the trees that `source` builds, on every family,
-/// and that each tree is valid.
-fn check<E>(
-    effort: &Effort,
-    source: impl Fn(&[Triangle]) -> Result<Bvh<Triangle>, E> + Sync,
-) -> Checked
-where
-    accel_dualsplit::BuildError: From<E>,
-{
+type Trees = Result<Vec<DualSplitTree<Triangle>>, BuildError>;
+
+/// Checks the trees that `build` makes on every family, and that each is valid.
+fn check(effort: &Effort, build: &(dyn Fn(&[Triangle]) -> Trees + Sync)) -> Checked {
     let build = |triangles: &[Triangle]| {
-        let bvh = source(triangles)?;
-        let trees = BOTH.iter().map(|&partitioning| {
-            let converter = DualSplitConverter {
-                partitioning,
-                ..DualSplitConverter::default()
-            };
-            let tree = converter.convert(&bvh)?;
-            tree.validate()
-                .unwrap_or_else(|error| panic!("{converter:?}: {error}"));
-            Ok(tree)
-        });
-        trees.collect()
+        let trees = build(triangles)?;
+        for tree in &trees {
+            tree.validate().unwrap_or_else(|error| panic!("{error}"));
+        }
+        Ok::<_, BuildError>(trees)
     };
     check_families(effort, build).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The trees of both partitionings.
+fn convert(bvh: &Bvh<Triangle>) -> Trees {
+    let trees = BOTH.iter().map(|&partitioning| {
+        let converter = DualSplitConverter {
+            partitioning,
+            ..DualSplitConverter::default()
+        };
+        converter.convert(bvh)
+    });
+    trees.collect()
 }
 
 fn bvh_builder(object_split: ObjectSplit) -> BvhBuilder {
@@ -64,7 +65,7 @@ fn both_partitionings_agree_with_brute_force_on_every_family() {
         ..Effort::default()
     };
     let builder = bvh_builder(ObjectSplit::FullSweep);
-    let checked = check(&effort, |triangles| builder.build(triangles));
+    let checked = check(&effort, &|triangles| convert(&builder.build(triangles)?));
     assert!(checked.families >= 40, "{checked:?}");
     assert!(checked.hits > 10_000, "{checked:?}");
 }
@@ -75,7 +76,7 @@ fn trees_of_binned_sources_agree_on_every_family() {
         leaf_rule: LeafRule::StopAt(1),
         ..bvh_builder(ObjectSplit::default())
     };
-    let checked = check(&PART, |triangles| builder.build(triangles));
+    let checked = check(&PART, &|triangles| convert(&builder.build(triangles)?));
     assert!(checked.hits > 2_000, "{checked:?}");
 }
 
@@ -86,10 +87,24 @@ fn trees_of_sources_with_duplicates_agree_on_every_family() {
         invalid_primitives: InvalidPrimitives::Skip,
         ..SbvhBuilder::default()
     };
-    let checked = check(&PART, |triangles| {
-        Ok::<_, accel_dualsplit::BuildError>(builder.build_with(triangles, &())?.0)
+    let checked = check(&PART, &|triangles| {
+        convert(&builder.build_with(triangles, &())?.0)
     });
     assert!(checked.hits > 2_000, "{checked:?}");
+}
+
+#[test]
+fn directly_built_trees_agree_on_every_family() {
+    let builder = DualSplitBuilder {
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..DualSplitBuilder::default()
+    };
+    let effort = Effort { seeds: 2, ..PART };
+    let checked = check(&effort, &|triangles| Ok(vec![builder.build(triangles)?]));
+    assert!(
+        checked.families >= 40 && checked.hits > 4_000,
+        "{checked:?}"
+    );
 }
 
 #[test]

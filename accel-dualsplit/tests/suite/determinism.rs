@@ -3,26 +3,35 @@
 
 use accel_core::testing::families;
 use accel_dualsplit::{
-    AccelerationStructure, BuildBudget, BuildError, BvhBuilder, CarvingCosts, DualSplitConverter,
-    Partitioning, Triangle,
+    AccelerationStructure, BuildBudget, BuildError, BvhBuilder, CarvingCosts, DualSplitBuilder,
+    DualSplitConverter, DualSplitTree, Partitioning, Triangle,
 };
+
+type Maker<'a> = dyn Fn() -> Result<DualSplitTree<Triangle>, BuildError> + Sync + 'a;
 
 #[test]
 fn the_words_do_not_depend_on_the_number_of_threads() {
     for family in ["hairball", "soup-mixed-sizes", "duplicates"] {
         let triangles = families::find(family).expect(family).scene(7, 20_000);
         let bvh = BvhBuilder::default().build(&triangles).unwrap();
-        for partitioning in [Partitioning::Identical, Partitioning::Similar] {
+        let convert = |partitioning| {
             let converter = DualSplitConverter {
                 partitioning,
                 ..DualSplitConverter::default()
             };
+            converter.convert(&bvh)
+        };
+        let identical = || convert(Partitioning::Identical);
+        let similar = || convert(Partitioning::Similar);
+        let direct = || DualSplitBuilder::default().build(&triangles);
+        let makers: [&Maker<'_>; 3] = [&identical, &similar, &direct];
+        for make in makers {
             let with_threads = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(threads)
                     .build()
                     .unwrap();
-                pool.install(|| converter.convert(&bvh)).unwrap()
+                pool.install(make).unwrap()
             };
             let one = with_threads(1);
             for threads in [2, 8] {

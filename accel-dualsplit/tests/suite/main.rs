@@ -5,4 +5,5 @@ mod agreement;
 mod bih_and_h_tree;
 mod determinism;
 mod persistence;
+mod recorder;
 mod visited_leaves;
