@@ -188,6 +188,23 @@ fn invalid_triangles_are_left_out_and_counted_on_request() {
 }
 
 #[test]
+fn triangles_that_a_rotation_makes_invalid_are_refused_or_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "v 3e38 3e38 0\nv 3e38 0 0\nv 0 1 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\nf 3 4 5\n";
+    fs::write(folder.path().join("large.obj"), obj).unwrap();
+    let mut arguments = vec!["compare", "large.obj", "--rotate", "45,45,45"];
+    arguments.extend(QUICK);
+    arguments.push("out");
+    let words = ["--skip-invalid", "triangle 0", "rotated 45,45,45"];
+    assert_refused(folder.path(), &arguments, &words);
+    arguments.push("--skip-invalid");
+    let output = run(folder.path(), &arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("left out 1"), "{message}");
+}
+
+#[test]
 fn a_scene_with_nothing_to_hit_is_compared_all_the_same() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("nan.obj"), "v nan 0 0\nf 1 1 1\n").unwrap();

@@ -69,22 +69,23 @@ fn with_threads<T: Send>(
     reason = "notes on the input go beside the results"
 )]
 fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
-    let mut scene = Scene::load(name, options.invalid())?;
+    let mut scene = Scene::load(name)?;
     if !scene.faults.is_empty() {
         eprintln!("{}: {}", scene.name, scene.faults.trim_end());
-    }
-    let skipped = scene.invalid_triangles().len();
-    if skipped > 0 {
-        eprintln!(
-            "{}: left out {skipped} triangles with corners that are not finite",
-            scene.name
-        );
     }
     if let Some(camera) = options.camera {
         scene.camera = camera;
     }
     if let Some(rotation) = options.rotate {
         scene.rotate(rotation);
+    }
+    // Only now: turning may take corners out of the range of f32.
+    let skipped = scene.count_skipped(options.invalid())?;
+    if skipped > 0 {
+        eprintln!(
+            "{}: left out {skipped} triangles with corners that are not finite",
+            scene.name
+        );
     }
     Ok(scene)
 }
