@@ -164,10 +164,31 @@ fn what_can_not_be_done_is_refused_with_a_reason() {
         &["render", "cylinder", "-o", "no/folder/a.png"],
         &["no/folder/a.png"],
     );
-    let mut unwritable = vec!["compare", "cylinder"];
-    unwritable.extend(QUICK);
-    unwritable.push("file");
-    assert_refused(here, &unwritable, &["file"]);
+    let many = "18446744073709551615";
+    for option in ["--viewpoints", "--rounds", "--threads"] {
+        assert_refused(here, &["paper", "sbvh", option, many], &[option, many]);
+    }
+    assert_refused(here, &["verify", "room", "--rays", many], &["--rays", many]);
+    let mut large = vec!["paper", "sbvh", "cylinder", "--size", "4096x2048"];
+    large.extend(["--viewpoints", "2"]);
+    assert_refused(here, &large, &["4096x2048", "16777216", "8388608"]);
+}
+
+#[test]
+fn reports_that_can_not_be_written_are_refused_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    fs::create_dir_all(folder.path().join("taken/index.html")).unwrap();
+    for report in ["file", "file/below", "taken"] {
+        for command in [["compare"].as_slice(), &["paper", "sbvh"]] {
+            let mut arguments = [command, &["cylinder"]].concat();
+            arguments.extend(QUICK);
+            arguments.push(report);
+            assert_refused(folder.path(), &arguments, &[report]);
+            let printed = text(&run(folder.path(), &arguments).stdout);
+            assert!(printed.is_empty(), "{printed}");
+        }
+    }
 }
 
 #[test]

@@ -8,6 +8,8 @@ mod render;
 mod scenes;
 mod verify;
 
+use std::fs::{self, File};
+use std::path::Path;
 use std::process::ExitCode;
 
 use accel_core::InvalidPrimitives;
@@ -25,6 +27,9 @@ const SUCCESS: u8 = 0;
 const DISAGREEMENT: u8 = 1;
 /// Ends a run that could not be done as asked.
 const FAILURE: u8 = 2;
+
+/// A report's page, in its folder.
+const PAGE: &str = "index.html";
 
 /// Runs the command of this process' arguments.
 #[expect(clippy::print_stderr, reason = "this is where errors reach the user")]
@@ -88,6 +93,21 @@ fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
         );
     }
     Ok(scene)
+}
+
+/// Makes the folder of a report and tries to write into it: before anything is
+/// measured, which may take hours.
+fn prepare_folder(folder: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(folder)
+        .with_context(|| format!("making the folder {}", folder.display()))?;
+    let page = folder.join(PAGE);
+    // Appending keeps the page of an earlier run until there is a new one.
+    let mut options = File::options();
+    options.append(true).create(true);
+    options
+        .open(&page)
+        .with_context(|| format!("writing {}", page.display()))?;
+    Ok(())
 }
 
 /// Builds one row over a scene, showing progress.
