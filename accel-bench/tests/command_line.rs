@@ -245,6 +245,51 @@ fn a_scene_with_nothing_to_hit_is_compared_all_the_same() {
 }
 
 #[test]
+fn paper_sbvh_tells_the_limits_intervals_and_references_of_its_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec!["paper", "sbvh", "cylinder", "colonnade-45@3000"];
+    arguments.extend(["--viewpoints", "1"]);
+    arguments.extend(QUICK);
+    arguments.push("out");
+    let output = run(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    let words = [
+        "at most 200 % references",
+        "at most 400 % references",
+        "refused by",
+        "their range",
+        "for which this scene stands",
+    ];
+    for words in words {
+        assert!(printed.contains(words), "no `{words}` in {printed}");
+    }
+    assert!(!printed.contains("the interval that holds"), "{printed}");
+
+    let json = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let document: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let figure = |section: usize, table: usize, row: usize, column: usize| {
+        let table = &document["sections"][section]["tables"][table];
+        table["rows"][row]["figures"][column]["value"]
+            .as_f64()
+            .unwrap()
+    };
+    // The cylinder takes all that it is allowed: in Table 1, and in Figure 5 where
+    // alpha is 1e-5.
+    assert!(figure(0, 0, 0, 1) > 199.0 && figure(0, 0, 0, 1) <= 200.0);
+    assert!(figure(0, 1, 5, 2) > 399.0 && figure(0, 1, 5, 5) > 0.0);
+    // With alpha 1 there is nothing to refuse.
+    assert_eq!((figure(0, 1, 0, 2), figure(0, 1, 0, 5)), (100.0, 0.0));
+    // References of the edge volume heuristic are those in the tree.
+    let (sbvh, evh) = (figure(1, 0, 0, 1), figure(1, 0, 2, 1));
+    assert!(evh < 0.99 * sbvh, "{evh} % of {sbvh} %");
+    assert!(
+        printed.contains("are left in leaves without duplicates"),
+        "{printed}"
+    );
+}
+
+#[test]
 fn embedded_scenes_are_listed_and_exported() {
     let folder = tempfile::tempdir().unwrap();
     let output = run(folder.path(), &["scenes", "--export", "objs"]);
