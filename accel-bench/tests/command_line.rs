@@ -164,10 +164,31 @@ fn what_can_not_be_done_is_refused_with_a_reason() {
         &["render", "cylinder", "-o", "no/folder/a.png"],
         &["no/folder/a.png"],
     );
-    let mut unwritable = vec!["compare", "cylinder"];
-    unwritable.extend(QUICK);
-    unwritable.push("file");
-    assert_refused(here, &unwritable, &["file"]);
+    let many = "18446744073709551615";
+    for option in ["--viewpoints", "--rounds", "--threads"] {
+        assert_refused(here, &["paper", "sbvh", option, many], &[option, many]);
+    }
+    assert_refused(here, &["verify", "room", "--rays", many], &["--rays", many]);
+    let mut large = vec!["paper", "sbvh", "cylinder", "--size", "4096x2048"];
+    large.extend(["--viewpoints", "2"]);
+    assert_refused(here, &large, &["4096x2048", "16777216", "8388608"]);
+}
+
+#[test]
+fn reports_that_can_not_be_written_are_refused_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    fs::create_dir_all(folder.path().join("taken/index.html")).unwrap();
+    for report in ["file", "file/below", "taken"] {
+        for command in [["compare"].as_slice(), &["paper", "sbvh"]] {
+            let mut arguments = [command, &["cylinder"]].concat();
+            arguments.extend(QUICK);
+            arguments.push(report);
+            assert_refused(folder.path(), &arguments, &[report]);
+            let printed = text(&run(folder.path(), &arguments).stdout);
+            assert!(printed.is_empty(), "{printed}");
+        }
+    }
 }
 
 #[test]
@@ -188,6 +209,23 @@ fn invalid_triangles_are_left_out_and_counted_on_request() {
 }
 
 #[test]
+fn triangles_that_a_rotation_makes_invalid_are_refused_or_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "v 3e38 3e38 0\nv 3e38 0 0\nv 0 1 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\nf 3 4 5\n";
+    fs::write(folder.path().join("large.obj"), obj).unwrap();
+    let mut arguments = vec!["compare", "large.obj", "--rotate", "45,45,45"];
+    arguments.extend(QUICK);
+    arguments.push("out");
+    let words = ["--skip-invalid", "triangle 0", "rotated 45,45,45"];
+    assert_refused(folder.path(), &arguments, &words);
+    arguments.push("--skip-invalid");
+    let output = run(folder.path(), &arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("left out 1"), "{message}");
+}
+
+#[test]
 fn a_scene_with_nothing_to_hit_is_compared_all_the_same() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("nan.obj"), "v nan 0 0\nf 1 1 1\n").unwrap();
@@ -204,6 +242,51 @@ fn a_scene_with_nothing_to_hit_is_compared_all_the_same() {
             text(&output.stderr)
         );
     }
+}
+
+#[test]
+fn paper_sbvh_tells_the_limits_intervals_and_references_of_its_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec!["paper", "sbvh", "cylinder", "colonnade-45@3000"];
+    arguments.extend(["--viewpoints", "1"]);
+    arguments.extend(QUICK);
+    arguments.push("out");
+    let output = run(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    let words = [
+        "at most 200 % references",
+        "at most 400 % references",
+        "refused by",
+        "their range",
+        "for which this scene stands",
+    ];
+    for words in words {
+        assert!(printed.contains(words), "no `{words}` in {printed}");
+    }
+    assert!(!printed.contains("the interval that holds"), "{printed}");
+
+    let json = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let document: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let figure = |section: usize, table: usize, row: usize, column: usize| {
+        let table = &document["sections"][section]["tables"][table];
+        table["rows"][row]["figures"][column]["value"]
+            .as_f64()
+            .unwrap()
+    };
+    // The cylinder takes all that it is allowed: in Table 1, and in Figure 5 where
+    // alpha is 1e-5.
+    assert!(figure(0, 0, 0, 1) > 199.0 && figure(0, 0, 0, 1) <= 200.0);
+    assert!(figure(0, 1, 5, 2) > 399.0 && figure(0, 1, 5, 5) > 0.0);
+    // With alpha 1 there is nothing to refuse.
+    assert_eq!((figure(0, 1, 0, 2), figure(0, 1, 0, 5)), (100.0, 0.0));
+    // References of the edge volume heuristic are those in the tree.
+    let (sbvh, evh) = (figure(1, 0, 0, 1), figure(1, 0, 2, 1));
+    assert!(evh < 0.99 * sbvh, "{evh} % of {sbvh} %");
+    assert!(
+        printed.contains("are left in leaves without duplicates"),
+        "{printed}"
+    );
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use accel_core::InvalidPrimitives;
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::paper::sbvh;
@@ -51,7 +52,7 @@ pub(super) struct SceneOptions {
     #[arg(long)]
     pub skip_invalid: bool,
     /// Threads to use; 0 means all
-    #[arg(long, default_value_t = 0, value_parser = threads, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_parser = between(0, MOST_THREADS), value_name = "N")]
     pub threads: usize,
     /// Seed of everything random
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -83,7 +84,7 @@ pub(super) struct CompareOptions {
     #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
     /// Rounds of timing; every round goes around all structures
-    #[arg(long, default_value_t = 5, value_name = "N")]
+    #[arg(long, default_value_t = 5, value_parser = between(1, MOST_ROUNDS), value_name = "N")]
     pub rounds: usize,
     /// Write all figures as JSON
     #[arg(long, value_name = "FILE")]
@@ -104,7 +105,7 @@ pub(super) struct VerifyOptions {
     #[arg(value_name = "SCENE", required = true)]
     pub scenes: Vec<String>,
     /// Rays of each kind
-    #[arg(long, default_value_t = 10_000, value_name = "N")]
+    #[arg(long, default_value_t = 10_000, value_parser = between(1, MOST_RAYS), value_name = "N")]
     pub rays: usize,
     /// Structures by name, or `all`
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
@@ -166,13 +167,13 @@ pub(super) struct PaperOptions {
     #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
     /// Viewpoints: the camera, and as many more around it; `dual-split` and `bsp` have one
-    #[arg(long, default_value_t = 4, value_name = "N")]
+    #[arg(long, default_value_t = 4, value_parser = between(1, MOST_VIEWPOINTS), value_name = "N")]
     pub viewpoints: usize,
     /// How long ambient occlusion rays are, in diagonals of the scene
     #[arg(long, default_value_t = sbvh::AMBIENT_LENGTH, value_name = "LENGTH")]
     pub ambient_length: f32,
     /// Rounds of timing; every round goes around all structures
-    #[arg(long, default_value_t = 9, value_name = "N")]
+    #[arg(long, default_value_t = 9, value_parser = between(1, MOST_ROUNDS), value_name = "N")]
     pub rounds: usize,
     /// Where to write the report: index.html, report.json
     #[arg(long, default_value = "accel-report", value_name = "DIR")]
@@ -200,16 +201,21 @@ pub(super) struct ScenesOptions {
 }
 
 /// The most threads that can be asked for.
-const MOST_THREADS: usize = 1024;
+const MOST_THREADS: u64 = 1024;
 
-/// Parses a number of threads.
-fn threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(threads) if threads <= MOST_THREADS => Ok(threads),
-        _ => Err(format!(
-            "`{text}` is not a number of threads from 0 to {MOST_THREADS}"
-        )),
-    }
+/// The most rounds of timing: as many as the interval around a median is worked
+/// out for.
+const MOST_ROUNDS: u64 = 1000;
+
+/// The most rays of a kind that are compared with brute force.
+const MOST_RAYS: u64 = 1_000_000;
+
+/// The most viewpoints.
+const MOST_VIEWPOINTS: u64 = 1024;
+
+/// Parses a number from `least` to `most`.
+fn between(least: u64, most: u64) -> RangedU64ValueParser<usize> {
+    RangedU64ValueParser::new().range(least..=most)
 }
 
 /// The most pixels that a side may have.
@@ -247,6 +253,26 @@ mod tests {
         for bad in ["640", "0x5", "5x0", "x", "99999x1", "-1x1", "1x1x1"] {
             assert!(size(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn numbers_of_what_takes_time_and_memory_have_limits() {
+        let parsed = |option, value: &str| {
+            Arguments::try_parse_from(["accel-bench", "paper", "sbvh", option, value])
+        };
+        let most = [
+            ("--viewpoints", MOST_VIEWPOINTS),
+            ("--rounds", MOST_ROUNDS),
+            ("--threads", MOST_THREADS),
+        ];
+        for (option, most) in most {
+            assert!(parsed(option, &most.to_string()).is_ok());
+            for bad in ["many", "18446744073709551615", &(most + 1).to_string()] {
+                let error = parsed(option, bad).unwrap_err().to_string();
+                assert!(error.contains(option) && error.contains(bad), "{error}");
+            }
+        }
+        assert!(parsed("--rounds", "0").is_err() && parsed("--viewpoints", "0").is_err());
     }
 
     #[test]

@@ -8,6 +8,8 @@ mod render;
 mod scenes;
 mod verify;
 
+use std::fs::{self, File};
+use std::path::Path;
 use std::process::ExitCode;
 
 use accel_core::InvalidPrimitives;
@@ -25,6 +27,9 @@ const SUCCESS: u8 = 0;
 const DISAGREEMENT: u8 = 1;
 /// Ends a run that could not be done as asked.
 const FAILURE: u8 = 2;
+
+/// A report's page, in its folder.
+const PAGE: &str = "index.html";
 
 /// Runs the command of this process' arguments.
 #[expect(clippy::print_stderr, reason = "this is where errors reach the user")]
@@ -69,16 +74,9 @@ fn with_threads<T: Send>(
     reason = "notes on the input go beside the results"
 )]
 fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
-    let mut scene = Scene::load(name, options.invalid())?;
+    let mut scene = Scene::load(name)?;
     if !scene.faults.is_empty() {
         eprintln!("{}: {}", scene.name, scene.faults.trim_end());
-    }
-    let skipped = scene.invalid_triangles().len();
-    if skipped > 0 {
-        eprintln!(
-            "{}: left out {skipped} triangles with corners that are not finite",
-            scene.name
-        );
     }
     if let Some(camera) = options.camera {
         scene.camera = camera;
@@ -86,7 +84,30 @@ fn load(name: &str, options: &SceneOptions) -> anyhow::Result<Scene> {
     if let Some(rotation) = options.rotate {
         scene.rotate(rotation);
     }
+    // Only now: turning may take corners out of the range of f32.
+    let skipped = scene.count_skipped(options.invalid())?;
+    if skipped > 0 {
+        eprintln!(
+            "{}: left out {skipped} triangles with corners that are not finite",
+            scene.name
+        );
+    }
     Ok(scene)
+}
+
+/// Makes the folder of a report and tries to write into it: before anything is
+/// measured, which may take hours.
+fn prepare_folder(folder: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(folder)
+        .with_context(|| format!("making the folder {}", folder.display()))?;
+    let page = folder.join(PAGE);
+    // Appending keeps the page of an earlier run until there is a new one.
+    let mut options = File::options();
+    options.append(true).create(true);
+    options
+        .open(&page)
+        .with_context(|| format!("writing {}", page.display()))?;
+    Ok(())
 }
 
 /// Builds one row over a scene, showing progress.

@@ -1,25 +1,38 @@
 //! `paper`: a paper's tables, measured again.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write};
 
 use anyhow::Context;
 
 use super::arguments::{Paper, PaperOptions};
-use super::{interrupt, load, with_threads};
+use super::{PAGE, interrupt, load, prepare_folder, with_threads};
 use crate::paper::{Found, bsp, dual_split, sbvh};
 use crate::report::document::{self, Document};
 use crate::report::table::TableStyle;
 use crate::scene::Scene;
 use crate::{environment, progress};
 
+/// The most pixels of all viewpoints together: the rays, kept to be traced again,
+/// take about half a kilobyte a pixel.
+const MOST_PIXELS: u64 = 1 << 23;
+
 /// Measures, prints, writes; false if a structure disagreed with brute force.
 pub(super) fn run(options: &PaperOptions) -> anyhow::Result<bool> {
-    anyhow::ensure!(options.rounds > 0, "--rounds must be at least 1");
-    anyhow::ensure!(options.viewpoints > 0, "--viewpoints must be at least 1");
     anyhow::ensure!(
         options.ambient_length > 0.0,
         "--ambient-length must be above 0"
+    );
+    let (width, height) = options.size;
+    let viewpoints = match options.paper {
+        Paper::Sbvh => options.viewpoints,
+        Paper::DualSplit | Paper::Bsp => 1,
+    };
+    let pixels = u64::from(width) * u64::from(height) * viewpoints as u64;
+    anyhow::ensure!(
+        pixels <= MOST_PIXELS,
+        "--size {width}x{height} and --viewpoints {viewpoints} are {pixels} pixels, over the limit \
+         of {MOST_PIXELS}"
     );
     let document = with_threads(options.scene.threads, || match options.paper {
         Paper::Sbvh => of_sbvh(options),
@@ -96,7 +109,9 @@ fn document(
     };
     // All of them first: a name that is wrong should not cost the others' work.
     let scenes = names.iter().map(|name| load(name, &options.scene));
-    for scene in scenes.collect::<anyhow::Result<Vec<_>>>()? {
+    let scenes = scenes.collect::<anyhow::Result<Vec<Scene>>>()?;
+    prepare_folder(&options.report)?;
+    for scene in scenes {
         if interrupt::is_requested() {
             break;
         }
@@ -115,9 +130,7 @@ fn present(document: &Document, options: &PaperOptions) -> anyhow::Result<()> {
     let style = TableStyle::for_output(std::io::stdout().is_terminal());
     document::print(document, &mut out, style)?;
     let folder = &options.report;
-    fs::create_dir_all(folder)
-        .with_context(|| format!("making the folder {}", folder.display()))?;
-    let page = folder.join("index.html");
+    let page = folder.join(PAGE);
     let context = || format!("writing {}", page.display());
     let mut file = BufWriter::new(File::create(&page).with_context(context)?);
     document::write_html(document, &mut file).with_context(context)?;

@@ -20,7 +20,6 @@ const PRINTED: usize = 5;
 
 /// Verifies all scenes; false if anything disagreed.
 pub(super) fn run(options: &VerifyOptions) -> anyhow::Result<bool> {
-    anyhow::ensure!(options.rays > 0, "--rays must be at least 1");
     let rows = registry::select(&options.structures).map_err(anyhow::Error::msg)?;
     with_threads(options.scene.threads, || {
         let mut total = Tally::default();

@@ -35,7 +35,8 @@ pub(super) static ROWS: &[Row] = &[
         name: "sbvh",
         is_headline: true,
         about: "SBVH: object and spatial splits, 52/4-byte nodes",
-        settings: "alpha 1e-5, 256 bins, at most 2 references a triangle, SahUpTo(8), C_t = C_i = 1",
+        settings: "alpha 1e-5, 256 bins but at most 8 a reference, at most 2 references a triangle, \
+                   SahUpTo(8), C_t = C_i = 1",
         heuristic: SurfaceAreaHeuristic::default,
         build: |triangles, invalid, observer| {
             build_sbvh(SbvhBuilder::default(), triangles, invalid, observer)
@@ -107,4 +108,24 @@ fn build_sbvh(
 ) -> Result<Structure, BuildError> {
     builder.invalid_primitives = invalid_primitives;
     Ok(Box::new(builder.build_with(triangles, observer)?.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_settings_named_are_those_of_the_builder() {
+        let builder = SbvhBuilder::default();
+        let ReferenceLimit::Factor(references) = builder.limit else {
+            panic!("{:?} is no factor", builder.limit);
+        };
+        let expected = format!(
+            "alpha {:e}, {} bins but at most {} a reference, at most {references} references a \
+             triangle, {:?}, C_t = C_i = 1",
+            builder.alpha, builder.spatial_bins, builder.bins_per_reference, builder.leaf_rule
+        );
+        let row = ROWS.iter().find(|row| row.name == "sbvh").unwrap();
+        assert_eq!(row.settings, expected);
+    }
 }

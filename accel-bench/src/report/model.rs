@@ -253,11 +253,20 @@ impl Spread {
         let Some(last) = sorted.len().checked_sub(1) else {
             return Self::default();
         };
-        let rank = rank_outside_confidence(sorted.len());
+        let rank = rank_outside_confidence(sorted.len()).unwrap_or(0);
         Self {
             median,
             min: sorted[rank],
             max: sorted[last - rank],
+        }
+    }
+
+    /// What the interval of [`with_confidence`](Self::with_confidence) is for so
+    /// many values, for readers.
+    pub fn interval_of(count: usize) -> &'static str {
+        match rank_outside_confidence(count) {
+            Some(_) => "the interval that holds the median with 95 % confidence",
+            None => "their range, since so few don't bound the median with 95 % confidence",
         }
     }
 
@@ -279,19 +288,20 @@ impl Spread {
 }
 
 /// How many of the smallest and of the largest of `count` values lie outside of
-/// the interval that holds their median with 95 % confidence.
-fn rank_outside_confidence(count: usize) -> usize {
+/// the interval that holds their median with 95 % confidence; `None` for too few
+/// to tell. For at most a thousand: more have too many subsets for an f64.
+fn rank_outside_confidence(count: usize) -> Option<usize> {
     // A value is below the median with probability 1/2: the binomial
     // distribution tells how likely few of them are.
     let (mut ways, mut below) = (1.0_f64, 0.0);
     for rank in 0..count / 2 {
         below += ways / 2.0_f64.powi(count as i32);
         if below > 0.025 {
-            return rank.saturating_sub(1);
+            return rank.checked_sub(1);
         }
         ways *= (count - rank) as f64 / (rank + 1) as f64;
     }
-    0
+    None
 }
 
 #[cfg(test)]
@@ -310,10 +320,20 @@ mod tests {
     #[test]
     fn the_confidence_interval_drops_as_many_values_as_tables_say() {
         // Of 9 values the second and the eighth hold the median with 96 %.
-        let ranks = [5, 6, 9, 12, 20, 100].map(rank_outside_confidence);
-        assert_eq!(ranks, [0, 0, 1, 2, 5, 39]);
+        let ranks = [6, 9, 12, 20, 100, 1000].map(rank_outside_confidence);
+        assert_eq!(ranks, [0, 1, 2, 5, 39, 468].map(Some));
         let nine: Vec<f64> = (1..=9).map(f64::from).collect();
         let spread = Spread::with_confidence(&nine);
         assert_eq!((spread.min, spread.median, spread.max), (2.0, 5.0, 8.0));
+    }
+
+    #[test]
+    fn fewer_than_six_values_claim_no_confidence() {
+        // Five values are all on one side of the median with 2 / 2^5 = 6 %.
+        assert_eq!([0, 1, 2, 5].map(rank_outside_confidence), [None; 4]);
+        assert!(Spread::interval_of(5).contains("range"));
+        assert!(!Spread::interval_of(6).contains("range"));
+        let five = Spread::with_confidence(&[5.0, 1.0, 4.0, 2.0, 3.0]);
+        assert_eq!((five.min, five.median, five.max), (1.0, 3.0, 5.0));
     }
 }

@@ -23,6 +23,10 @@ use rotation::Rotation;
 pub struct Scene {
     /// An embedded scene's name, or the file's.
     pub name: String,
+    /// The embedded scene that this is, of whatever size; `None` for a file.
+    pub embedded: Option<&'static str>,
+    /// The last turn given to it.
+    pub rotation: Rotation,
     /// The triangles; hits name them by their position here.
     pub triangles: Vec<Triangle>,
     /// A camera that sees the scene.
@@ -75,33 +79,23 @@ const MOST_TRIANGLES: usize = 20_000_000;
 
 impl Scene {
     /// The embedded scene or OBJ file called `name`; `name@count` is the embedded
-    /// scene with about so many triangles. Triangles without finite corners are
-    /// refused unless `invalid` says to skip them.
+    /// scene with about so many triangles.
     ///
     /// # Errors
     /// [`SceneError`] names the scene and what is wrong with it.
-    pub fn load(name: &str, invalid: InvalidPrimitives) -> Result<Self, SceneError> {
+    pub fn load(name: &str) -> Result<Self, SceneError> {
         let (embedded, count) = match name.split_once('@') {
             Some((name, count)) => (embedded::find(name), Some(count)),
             None => (embedded::find(name), None),
         };
-        let scene = match embedded {
-            Some(embedded) => Self::of_embedded(embedded, name, count)?,
-            None => Self::of_file(name)?,
-        };
-        let faulty = scene.invalid_triangles();
-        match faulty.first() {
-            Some(&first) if invalid == InvalidPrimitives::Reject => Err(SceneError::Invalid {
-                name: scene.name,
-                count: faulty.len(),
-                first,
-            }),
-            _ => Ok(scene),
+        match embedded {
+            Some(embedded) => Self::of_embedded(embedded, name, count),
+            None => Self::of_file(name),
         }
     }
 
     /// Turns triangles and camera, so that the picture stays the same; the name
-    /// says so.
+    /// says so. Corners may leave the range of f32.
     pub fn rotate(&mut self, rotation: Rotation) {
         for triangle in &mut self.triangles {
             let corners = triangle.vertices().map(|corner| rotation.apply(corner));
@@ -112,10 +106,28 @@ impl Scene {
             *vector = rotation.apply(*vector);
         }
         self.name = format!("{} rotated {rotation}", self.name);
+        self.rotation = rotation;
+    }
+
+    /// How many triangles have no finite corners and are to be left out.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] if there are any and `invalid` doesn't say to skip
+    /// them.
+    pub fn count_skipped(&self, invalid: InvalidPrimitives) -> Result<usize, SceneError> {
+        let faulty = self.invalid_triangles();
+        match faulty.first() {
+            Some(&first) if invalid == InvalidPrimitives::Reject => Err(SceneError::Invalid {
+                name: self.name.clone(),
+                count: faulty.len(),
+                first,
+            }),
+            _ => Ok(faulty.len()),
+        }
     }
 
     /// The positions of triangles without finite corners.
-    pub fn invalid_triangles(&self) -> Vec<usize> {
+    fn invalid_triangles(&self) -> Vec<usize> {
         let is_invalid = |triangle: &Triangle| !triangle.bounds().is_valid();
         let all = self.triangles.iter().enumerate();
         all.filter(|(_, triangle)| is_invalid(triangle))
@@ -139,6 +151,8 @@ impl Scene {
         };
         Ok(Self {
             name: name.to_owned(),
+            embedded: Some(embedded.name),
+            rotation: Rotation::default(),
             triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
             camera: embedded.camera(),
             faults: String::new(),
@@ -168,6 +182,8 @@ impl Scene {
                 || name.to_owned(),
                 |stem| stem.to_string_lossy().into_owned(),
             ),
+            embedded: None,
+            rotation: Rotation::default(),
             triangles: triangles_of_mesh(&mesh.positions, &mesh.triangles)?,
             camera: Camera::seeing(&mesh),
             faults: loaded.faults.to_string(),

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use accel_core::glam::{DMat3, Vec3};
 
-/// A turn about x, then about y, then about z, through the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A turn about x, then about y, then about z, through the origin; none by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation {
     /// The angles about x, y and z, in degrees.
     pub degrees: [f64; 3],

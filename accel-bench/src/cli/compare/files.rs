@@ -1,11 +1,12 @@
 //! What a comparison leaves behind: tables on the terminal, files in a folder.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;
 
 use anyhow::Context;
 
+use crate::cli::PAGE;
 use crate::cli::arguments::CompareOptions;
 use crate::report::model::{Pictures, Report};
 use crate::report::{csv, html, json, table};
@@ -20,9 +21,7 @@ pub(super) fn present(
     let style = table::TableStyle::for_output(std::io::stdout().is_terminal());
     table::print(report, &mut out, style)?;
     let folder = &options.report;
-    fs::create_dir_all(folder)
-        .with_context(|| format!("making the folder {}", folder.display()))?;
-    let page = folder.join("index.html");
+    let page = folder.join(PAGE);
     write(&page, |out| Ok(html::write_html(report, pictures, out)?))?;
     write(&folder.join("report.json"), |out| {
         Ok(json::write(report, out)?)

@@ -10,7 +10,9 @@ use accel_core::DynStructure;
 use anyhow::Context;
 
 use super::arguments::CompareOptions;
-use super::{build, interrupt, load, ray_finder, ray_kinds, ray_source, with_threads};
+use super::{
+    build, interrupt, load, prepare_folder, ray_finder, ray_kinds, ray_source, with_threads,
+};
 use crate::measure::{self, Timings};
 use crate::rays::RaySet;
 use crate::registry::{self, Row, Structure};
@@ -30,7 +32,6 @@ const BUILD_SECONDS: f64 = 2.0;
 
 /// Compares, prints, writes; false if a structure disagreed with brute force.
 pub(super) fn run(options: &CompareOptions) -> anyhow::Result<bool> {
-    anyhow::ensure!(options.rounds > 0, "--rounds must be at least 1");
     let rows = registry::select(&options.structures).map_err(anyhow::Error::msg)?;
     let names: Vec<String> = if options.scenes.is_empty() {
         DEFAULT_SCENES.map(str::to_owned).to_vec()
@@ -45,7 +46,9 @@ pub(super) fn run(options: &CompareOptions) -> anyhow::Result<bool> {
         let mut pictures = Pictures::default();
         // All of them first: a name that is wrong should not cost the others' work.
         let scenes = names.iter().map(|name| load(name, &options.scene));
-        for scene in scenes.collect::<anyhow::Result<Vec<Scene>>>()? {
+        let scenes = scenes.collect::<anyhow::Result<Vec<Scene>>>()?;
+        prepare_folder(&options.report)?;
+        for scene in scenes {
             if interrupt::is_requested() {
                 break;
             }

@@ -18,6 +18,7 @@ use accel_core::InvalidPrimitives;
 use super::Found;
 use crate::registry;
 use crate::report::document::Section;
+use crate::report::model::Spread;
 use crate::scene::Scene;
 use crate::verification::Expected;
 use frames::{Frame, Frames};
@@ -128,13 +129,13 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
     let mut notes = vec![
         format!(
             "Frames of {}x{} pixels ({}). Speeds are relative to single rays through the kd-tree in \
-             the same round: medians of {} rounds, in brackets the interval that holds the median \
-             with 95 % confidence. Rays are recorded and traced again, so that times hold traversal \
-             alone; the paper's hold shading too.",
+             the same round: medians of {} rounds, in brackets {}. Rays are recorded and traced \
+             again, so that times hold traversal alone; the paper's hold shading too.",
             settings.size.0,
             settings.size.1,
             counts.join(", "),
-            settings.rounds
+            settings.rounds,
+            Spread::interval_of(settings.rounds)
         ),
         format!(
             "The kd-tree is swept, with K_T {:.0} for a K_I of 20 and an empty-space bonus of {}: the \

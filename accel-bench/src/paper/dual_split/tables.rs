@@ -290,10 +290,11 @@ pub(super) fn notes(frame: &Frame, settings: &Settings) -> Vec<String> {
         ),
         format!(
             "Frame times are relative to the BVH in the same round, structures in turns of a few \
-             thousand rays: medians of {} rounds, in brackets the interval that holds the median \
-             with 95 % confidence. Storage is that of the nodes, without references to triangles. \
-             A box test counts six planes, an inner node of the BVH twelve.",
-            settings.rounds
+             thousand rays: medians of {} rounds, in brackets {}. Storage is that of the nodes, \
+             without references to triangles. A box test counts six planes, an inner node of the \
+             BVH twelve.",
+            settings.rounds,
+            Spread::interval_of(settings.rounds)
         ),
     ]
 }

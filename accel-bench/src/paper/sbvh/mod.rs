@@ -68,14 +68,15 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
     let all: Vec<&Method> = methods.in_order().collect();
     let mut section = Section {
         heading: format!("{}, {} triangles", scene.name, scene.triangles.len()),
-        tables: vec![table::of_methods(&scene.name, &all, &work, &speeds)],
+        tables: vec![table::of_methods(scene, &all, &work, &speeds)],
         notes: table::notes(&all, &rays, settings),
         charts: Vec::new(),
         pictures: Vec::new(),
     };
-    let (alpha_table, alpha_chart) = sweeps::alpha(&scene.triangles, settings.invalid)?;
-    section.tables.push(alpha_table);
-    section.charts.push(alpha_chart);
+    let figure_5 = sweeps::alpha(&scene.triangles, settings.invalid)?;
+    section.tables.push(figure_5.table);
+    section.charts.push(figure_5.chart);
+    section.notes.push(figure_5.note);
     section
         .tables
         .push(sweeps::limits(&scene.triangles, settings.invalid)?);

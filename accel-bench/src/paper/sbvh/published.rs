@@ -1,5 +1,9 @@
 //! The published figures of Table 1, for the scenes that we have or stand in for.
 
+use std::fmt;
+
+use crate::scene::Scene;
+
 /// A row of Table 1. Cells that can't be read in our copy of the paper are
 /// `None`.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +28,17 @@ pub(super) struct Published {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PublishedScene {
     pub name: &'static str,
+    /// As the table has it, to the thousand.
+    pub triangles: usize,
     pub rows: [Published; 4],
+}
+
+impl PublishedScene {
+    /// Whether a scene of so many triangles can be it: conversions of the same
+    /// model differ by a few percent.
+    fn has_about(&self, triangles: usize) -> bool {
+        self.triangles.abs_diff(triangles) * 10 <= self.triangles
+    }
 }
 
 const UNREADABLE: Published = Published {
@@ -41,6 +55,7 @@ const UNREADABLE: Published = Published {
 
 const ROTATED_SPONZA: PublishedScene = PublishedScene {
     name: "Rotated Sponza",
+    triangles: 66_000,
     rows: [
         Published {
             method: "SBVH",
@@ -81,6 +96,7 @@ const ROTATED_SPONZA: PublishedScene = PublishedScene {
 
 const SIBENIK: PublishedScene = PublishedScene {
     name: "Sibenik Cathedral",
+    triangles: 80_000,
     rows: [
         Published {
             method: "SBVH",
@@ -131,6 +147,7 @@ const SIBENIK: PublishedScene = PublishedScene {
 
 const BUBS: PublishedScene = PublishedScene {
     name: "Bubs",
+    triangles: 1_888_000,
     rows: [
         Published {
             method: "SBVH",
@@ -179,16 +196,93 @@ const BUBS: PublishedScene = PublishedScene {
     ],
 };
 
-/// The published scene that a scene of this name is, or stands for.
-pub(super) fn find(scene: &str) -> Option<&'static PublishedScene> {
-    let scene = scene.to_lowercase();
-    let is_rotated = scene.contains("rotated");
-    let embedded = scene.split('@').next().unwrap_or_default();
-    match embedded {
-        "colonnade-45" => Some(&ROTATED_SPONZA),
-        "stadium" => Some(&BUBS),
-        _ if scene.contains("sponza") && is_rotated => Some(&ROTATED_SPONZA),
-        _ if scene.contains("sibenik") && !is_rotated => Some(&SIBENIK),
-        _ => None,
+/// How a published scene is related to the one that it stands beside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Relation {
+    /// A file that is it by all that can be told.
+    Alike,
+    /// An embedded scene of its kind.
+    StoodFor,
+}
+
+impl fmt::Display for Relation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Alike => "which the file is by its name, size and rotation",
+            Self::StoodFor => "for which this scene stands",
+        })
+    }
+}
+
+/// Embedded scenes that stand for published ones.
+const STAND_INS: [(&str, &PublishedScene); 2] =
+    [("colonnade-45", &ROTATED_SPONZA), ("stadium", &BUBS)];
+
+/// Files of published scenes: a word of their names, and their rotation.
+const FILES: [(&str, [f64; 3], &PublishedScene); 2] = [
+    ("sponza", [45.0; 3], &ROTATED_SPONZA),
+    ("sibenik", [0.0; 3], &SIBENIK),
+];
+
+/// The published scene that a scene is, or stands for.
+pub(super) fn find(scene: &Scene) -> Option<(&'static PublishedScene, Relation)> {
+    let degrees = scene.rotation.degrees;
+    if let Some(embedded) = scene.embedded {
+        let mut stand_ins = STAND_INS.into_iter();
+        let (_, published) = stand_ins.find(|(name, _)| *name == embedded)?;
+        return (degrees == [0.0; 3]).then_some((published, Relation::StoodFor));
+    }
+    let name = scene.name.to_lowercase();
+    let (_, _, published) = FILES.into_iter().find(|(word, rotation, published)| {
+        name.contains(word) && degrees == *rotation && published.has_about(scene.triangles.len())
+    })?;
+    Some((published, Relation::Alike))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::rotation::Rotation;
+
+    /// A file of this name and size.
+    fn file(name: &str, triangles: usize, degrees: [f64; 3]) -> Scene {
+        let mut scene = Scene::load("cylinder").unwrap();
+        let triangle = scene.triangles[0];
+        scene.embedded = None;
+        scene.name = name.to_owned();
+        scene.triangles = vec![triangle; triangles];
+        scene.rotate(Rotation { degrees });
+        scene
+    }
+
+    fn found(scene: &Scene) -> Option<(&'static str, Relation)> {
+        find(scene).map(|(published, relation)| (published.name, relation))
+    }
+
+    #[test]
+    fn files_are_set_beside_what_they_are_by_name_size_and_rotation() {
+        let sponza = |triangles, degrees| found(&file("my_Sponza", triangles, degrees));
+        let rotated = Some(("Rotated Sponza", Relation::Alike));
+        assert_eq!(sponza(66_450, [45.0; 3]), rotated);
+        assert_eq!(sponza(1, [45.0; 3]), None);
+        assert_eq!(sponza(262_267, [45.0; 3]), None);
+        assert_eq!(sponza(66_450, [0.0; 3]), None);
+        assert_eq!(sponza(66_450, [45.0, 0.0, 0.0]), None);
+        let sibenik = Some(("Sibenik Cathedral", Relation::Alike));
+        assert_eq!(found(&file("sibenik", 80_479, [0.0; 3])), sibenik);
+        assert_eq!(found(&file("sibenik", 80_479, [45.0; 3])), None);
+        assert_eq!(found(&file("colonnade-45", 66_450, [0.0; 3])), None);
+    }
+
+    #[test]
+    fn embedded_scenes_only_stand_for_published_ones() {
+        let mut scene = Scene::load("stadium@600").unwrap();
+        assert_eq!(found(&scene), Some(("Bubs", Relation::StoodFor)));
+        scene.rotate(Rotation { degrees: [9.0; 3] });
+        assert_eq!(found(&scene), None);
+        for (name, _) in STAND_INS {
+            assert!(found(&Scene::load(name).unwrap()).is_some(), "{name}");
+        }
+        assert_eq!(found(&Scene::load("room").unwrap()), None);
     }
 }

@@ -1,11 +1,12 @@
 //! Table 1.
 
-use super::methods::Method;
+use super::methods::{self, Method};
 use super::pixels::{PixelRays, Speeds, Work};
 use super::published::{self, Published};
 use super::{SOURCE, Settings};
 use crate::report::document::{DocumentTable, Figure, TableRow};
-use crate::report::model::MeanMax;
+use crate::report::model::{MeanMax, Spread};
+use crate::scene::Scene;
 
 const HEADINGS: [&str; 14] = [
     "method",
@@ -26,7 +27,7 @@ const HEADINGS: [&str; 14] = [
 
 /// Our figures, and the published ones below them if there are any.
 pub(super) fn of_methods(
-    scene: &str,
+    scene: &Scene,
     methods: &[&Method],
     work: &[Work],
     speeds: &[Speeds],
@@ -39,9 +40,12 @@ pub(super) fn of_methods(
             figures: measured_row(method, work_of, speed, methods[plain], &work[plain]),
         })
         .collect();
-    let mut caption = "Table 1".to_owned();
-    if let Some(published) = published::find(scene) {
-        caption = format!("Table 1; in italics {} of {SOURCE}", published.name);
+    let mut caption = format!(
+        "Table 1, the SBVH with at most {} % references",
+        100.0 * methods::LIMIT
+    );
+    if let Some((published, relation)) = published::find(scene) {
+        caption += &format!("; in italics {} of {SOURCE}, {relation}", published.name);
         let base = &published.rows[3];
         rows.extend(published.rows.iter().map(|row| TableRow {
             is_published: true,
@@ -77,7 +81,7 @@ fn measured_row(
     };
     vec![
         Figure::Text(method.name.to_owned()),
-        Figure::number(100.0 * method.references as f64 / triangles, 1, " %"),
+        Figure::number(100.0 * tree.references as f64 / triangles, 1, " %"),
         Figure::count(tree.nodes()),
         Figure::number(tree.sah_cost, 2, ""),
         percent_of(tree.sah_cost, plain_tree.sah_cost),
@@ -140,29 +144,34 @@ pub(super) fn notes(methods: &[&Method], rays: &PixelRays, settings: &Settings) 
         ),
         format!(
             "Speeds are relative to the BVH in the same round: medians of {} rounds, in brackets \
-             the interval that holds the median with 95 % confidence. Both trees have the 52/4-byte \
-             layout; the paper's speeds are a GPU's. SAH costs are for C_t = C_i = 1, which the \
-             paper does not state: compare ratios.",
-            settings.rounds
+             {}. Both trees have the 52/4-byte layout; the paper's speeds are a GPU's. SAH costs are \
+             for C_t = C_i = 1, which the paper does not state: compare ratios.",
+            settings.rounds,
+            Spread::interval_of(settings.rounds)
         ),
     ];
-    for method in methods {
-        if let Some(splits) = method.splits {
-            notes.push(format!(
-                "{}: {} nodes attempted a spatial split, {} were split, {} references were unsplit.",
-                method.name,
-                splits.spatial_split_attempts,
-                splits.spatial_splits,
-                splits.unsplits
-            ));
-        }
-        let in_leaves = method.statistics.references;
-        if in_leaves != method.references {
-            notes.push(format!(
-                "{}: built over {} references, {in_leaves} are left in leaves without duplicates.",
-                method.name, method.references
-            ));
-        }
-    }
+    notes.extend(methods.iter().filter_map(|method| note_of(method)));
     notes
+}
+
+fn note_of(method: &Method) -> Option<String> {
+    let name = method.name;
+    if let Some(splits) = method.splits {
+        return Some(format!(
+            "{name}: {} nodes attempted a spatial split, {} were split, {} references were unsplit. \
+             The limit of {} % references, which the paper does not have, refused {} splits.",
+            splits.spatial_split_attempts,
+            splits.spatial_splits,
+            splits.unsplits,
+            100.0 * methods::LIMIT,
+            splits.refused_splits
+        ));
+    }
+    let (parts, in_leaves) = (method.references, method.statistics.references);
+    (parts != in_leaves).then(|| {
+        format!(
+            "{name}: the threshold, matched to the SBVH's references, makes {parts}, over which the \
+             tree is built; {in_leaves} are left in leaves without duplicates, and in the table."
+        )
+    })
 }
