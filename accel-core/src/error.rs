@@ -107,6 +107,14 @@ pub enum ValidationError {
         /// How many references there are to it.
         count: usize,
     },
+    /// Primitives were lost, or some that were skipped are referenced.
+    #[error("{unreferenced} primitives stand in no leaf, but {skipped} were skipped")]
+    Unreferenced {
+        /// How many stand in no leaf.
+        unreferenced: usize,
+        /// How many the build left out.
+        skipped: usize,
+    },
     /// A leaf holds nothing.
     #[error("leaf {node} is empty")]
     EmptyLeaf {

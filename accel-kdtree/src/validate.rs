@@ -29,25 +29,11 @@ impl<P: Clip> KdTree<P> {
                 recorded: self.depth,
             });
         }
-        self.validate_counts()?;
+        self.outline()
+            .validate_lost(self.primitive_count(), self.skipped_count())?;
         (0..self.primitive_count() as u32)
             .filter_map(|id| Some((id, self.primitive(id)?)))
             .try_for_each(|(id, primitive)| self.validate_primitive(id, &primitive))
-    }
-
-    /// Valid primitives are referenced; as many are not as were skipped.
-    fn validate_counts(&self) -> Result<(), ValidationError> {
-        let mut counts = vec![0; self.primitive_count()];
-        for &id in &self.outline().ids {
-            counts[id as usize] += 1;
-        }
-        let unreferenced = || (0..).zip(&counts).filter(|(_, count)| **count == 0);
-        match unreferenced().next() {
-            Some((id, _)) if unreferenced().count() != self.skipped_count() => {
-                Err(ValidationError::ReferenceCount { id, count: 0 })
-            }
-            _ => Ok(()),
-        }
     }
 
     /// Every leaf with part of the primitive well inside references it.

@@ -14,8 +14,9 @@ use crate::spatial_split::{Divisor, SpatialSearch};
 use crate::waiting::WaitingList;
 use crate::{CandidateClipping, ReferenceLimit, Spending, SplitStatistics};
 
-/// Builds a [`Bvh`] with spatial splits. All settings have defaults, those of
-/// Stich 2009 but for the leaf rule:
+/// Builds a [`Bvh`] with spatial splits. All settings have defaults: those of
+/// Stich 2009, but for `leaf_rule`, `bins_per_reference` and `limit`. The paper's
+/// own are `LeafRule::StopAt(8)`, `usize::MAX` and `ReferenceLimit::Unlimited`.
 ///
 /// ```
 /// use accel_sbvh::{LeafRule, ReferenceLimit, SbvhBuilder, Sphere};
@@ -34,7 +35,9 @@ use crate::{CandidateClipping, ReferenceLimit, Spending, SplitStatistics};
 pub struct SbvhBuilder {
     /// How object split candidates are searched for.
     pub object_split: ObjectSplit,
-    /// Bins per axis in the search for spatial splits, 2 to 65536.
+    /// Bins per axis in the search for spatial splits, 2 to 65536. References are
+    /// chopped at all planes between bins where a split may pay: time grows with
+    /// the product.
     pub spatial_bins: usize,
     /// Nodes of few references have no more bins than so many for each, at least
     /// 1; `usize::MAX` makes it `spatial_bins` in every node, as in the paper.
@@ -46,7 +49,9 @@ pub struct SbvhBuilder {
     pub unsplitting: bool,
     /// Alpha, the overlap of an object split, relative to the area of the root,
     /// up to which no spatial split is attempted (section 4.5): 0 attempts one
-    /// wherever there is overlap, 1 never does and builds a plain BVH.
+    /// wherever there is overlap, 1 never does and builds a plain BVH. Overlap is
+    /// a volume: where all primitives lie in one axis-aligned plane there is none,
+    /// and no spatial split is attempted.
     pub alpha: f64,
     /// The most references that the tree may have.
     pub limit: ReferenceLimit,
@@ -58,7 +63,8 @@ pub struct SbvhBuilder {
     pub heuristic: SurfaceAreaHeuristic,
     /// Whether primitives without finite bounds are refused or left out.
     pub invalid_primitives: InvalidPrimitives,
-    /// Limits on memory and depth.
+    /// Limits on memory and depth. A search for spatial splits takes some 50 KB of
+    /// bins beside, on each thread.
     pub budget: BuildBudget,
 }
 
@@ -103,15 +109,16 @@ impl SbvhBuilder {
         let objects = self.object_builder();
         objects.validate()?;
         self.validate()?;
-        let most_references = self.most_references::<P>(primitives.len())?;
+        self.budget
+            .check_bytes(primitives.len().saturating_mul(size_of::<Reference>()))?;
         let gathered = gather(primitives, self.invalid_primitives)?;
         let (bounds, skipped) = (gathered.bounds, gathered.skipped);
         let count = gathered.references.len();
+        let spare = self.most_references::<P>(count)? - count;
         if count == 0 {
             let bvh = objects.build(primitives)?;
             return Ok((bvh, SplitStatistics::default()));
         }
-        let spare = most_references - primitives.len();
         let root = self.root(gathered.references, primitives, spare);
         let growth = Growth {
             partitioning: self.partitioning(primitives, &root, NodeRules::new(&objects, count)),
@@ -156,8 +163,9 @@ impl SbvhBuilder {
         }
     }
 
-    /// The limit on references, and as many as the budget has memory for while
-    /// the tree is built, known before any is taken.
+    /// The limit on references for a tree over so many valid primitives, and as
+    /// many as the budget has memory for while the tree is built, known before
+    /// any is taken.
     fn most_references<P: Clip>(&self, primitives: usize) -> Result<usize, BuildError> {
         let limit = self.limit.references(primitives, size_of::<P>())?;
         let Some(bytes) = self.budget.max_bytes else {

@@ -50,8 +50,9 @@
 //! matters.
 //!
 //! # Complexity
-//! O((n + r) log n) time with r the references that splits add, and about 250
-//! bytes a reference while building. [`ReferenceLimit`] bounds r.
+//! O((n + r) log n) time with r the references that splits add, and while
+//! building up to 470 bytes for each of the n + r, or 250 with binned object
+//! splits. [`ReferenceLimit`] bounds r.
 
 mod builder;
 mod fragment;

@@ -5,10 +5,13 @@ use accel_core::BuildError;
 use accel_core::layout::MAX_PRIMITIVES;
 
 /// The most references that a tree may have: a hard limit (Stich 2009, section
-/// 6.1). Never below one a primitive.
+/// 6.1). Never below one a primitive; primitives that are skipped don't count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReferenceLimit {
-    /// As many as spatial splits make.
+    /// As many as spatial splits make: several dozen a primitive where long
+    /// primitives cross each other, and more the fewer of them leaves may hold.
+    /// [`BuildBudget::max_bytes`](accel_core::BuildBudget::max_bytes) holds all
+    /// the same.
     Unlimited,
     /// This many times the number of primitives; finite and at least 1.
     Factor(f64),
@@ -21,8 +24,9 @@ pub enum ReferenceLimit {
 }
 
 impl Default for ReferenceLimit {
-    /// Two a primitive: spent by benefit, more gain hardly anything, and it bounds
-    /// what adversarial scenes can ask for.
+    /// Two a primitive: spent by benefit, these gain nearly all that there is to
+    /// gain on buildings and scans. Scenes of long primitives that cross each other
+    /// everywhere gain from more, and ask for dozens of times their size.
     fn default() -> Self {
         Self::Factor(2.0)
     }
@@ -43,8 +47,8 @@ impl ReferenceLimit {
         }
     }
 
-    /// How many references a tree over `primitives` of this many bytes each may
-    /// have.
+    /// How many references a tree over `primitives` valid ones, of this many bytes
+    /// each, may have.
     ///
     /// # Errors
     /// [`BuildError::BudgetExceeded`] if not even one a primitive is allowed.
@@ -98,7 +102,9 @@ pub enum Spending {
     /// scheme of Stich 2009, section 6.1.
     BreadthFirst,
     /// Every child gets a share in proportion to its references, and spends it
-    /// on its own (Waechter and Keller 2007).
+    /// on its own (Waechter and Keller 2007). Small subtrees that need more than
+    /// their share go without while others leave theirs: below one and a half
+    /// references a primitive little is split.
     Shares,
 }
 

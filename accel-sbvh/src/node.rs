@@ -72,14 +72,15 @@ impl Fragments {
         Self { orders }
     }
 
-    /// Bytes that a fragment takes in all orders, twice: while a node is divided
-    /// its children are there as well.
+    /// Bytes that a fragment takes while its node is divided: in all orders, and
+    /// in those of the children, one after the other. A list has up to twice the
+    /// room that it needs, which tells where there is only one.
     pub(crate) fn bytes_per_fragment(object_split: ObjectSplit) -> usize {
-        let orders = match object_split {
-            ObjectSplit::FullSweep => Axis::ALL.len(),
-            ObjectSplit::Binned { .. } => 1,
+        let copies = match object_split {
+            ObjectSplit::FullSweep => 2 * Axis::ALL.len(),
+            ObjectSplit::Binned { .. } => 4,
         };
-        2 * orders * size_of::<Fragment>()
+        copies * size_of::<Fragment>()
     }
 
     /// One copy, unsorted.

@@ -113,7 +113,7 @@ impl WaitingList {
             .map(decide)
             .collect();
         if is_reached {
-            // Nothing is left for later levels.
+            // Later levels get no more than what unsplitting saves of this one.
             self.remaining -= free;
         }
         picked

@@ -16,10 +16,30 @@ impl TreeOutline {
         &self,
         structure: &impl AccelerationStructure,
     ) -> Result<(), ValidationError> {
-        self.validate(structure.primitive_count(), |id| {
+        let count = structure.primitive_count();
+        self.validate(count, |id| {
             let primitive = structure.primitive(id)?;
             Some(primitive.bounds().gate())
-        })
+        })?;
+        self.validate_lost(count, structure.skipped_count())
+    }
+
+    /// Checks that as many primitives of `count` stand in no leaf as were skipped:
+    /// more would be lost.
+    ///
+    /// # Errors
+    /// [`ValidationError::Unreferenced`] otherwise.
+    pub fn validate_lost(&self, count: usize, skipped: usize) -> Result<(), ValidationError> {
+        let counts = self.reference_counts(count);
+        let unreferenced = counts.iter().filter(|&&count| count == 0).count();
+        if unreferenced == skipped {
+            Ok(())
+        } else {
+            Err(ValidationError::Unreferenced {
+                unreferenced,
+                skipped,
+            })
+        }
     }
 
     /// Checks that the deepest node is as deep as was `recorded`.
@@ -151,6 +171,13 @@ mod tests {
         for (outline, error) in cases {
             assert_eq!(outline.validate(3, gate), Err(error));
         }
+        let whole = outline(unit(0.0), &[0]);
+        assert_eq!(whole.validate_lost(3, 1), Ok(()));
+        let lost = ValidationError::Unreferenced {
+            unreferenced: 1,
+            skipped: 0,
+        };
+        assert_eq!(whole.validate_lost(3, 0), Err(lost));
         let mut with_empty_leaf = outline(unit(0.0), &[0]);
         with_empty_leaf.push_leaf(unit(0.0), Some(0), std::iter::empty());
         assert_eq!(

@@ -37,6 +37,18 @@ pub struct PresplitStatistics {
     pub references_in_leaves: usize,
     /// The threshold used, given or found.
     pub threshold: f64,
+    /// The number of references that a threshold was searched for, if one was.
+    pub target: Option<usize>,
+}
+
+impl PresplitStatistics {
+    /// Whether the number of references is what was asked for, within 0.5 %: it
+    /// is not where no threshold makes it, as where many parts have the same
+    /// size.
+    pub fn is_target_met(&self) -> bool {
+        self.target
+            .is_none_or(|target| threshold::is_close(self.references, target))
+    }
 }
 
 /// A way to divide one primitive into parts.
@@ -59,6 +71,16 @@ struct Pipeline<'a, S> {
     bvh: &'a BvhBuilder,
 }
 
+/// The error of a threshold that makes too many references; how many is not
+/// counted to the end.
+fn too_many(most: usize) -> BuildError {
+    BuildError::BudgetExceeded {
+        what: "references",
+        needed: most + 1,
+        limit: most,
+    }
+}
+
 /// Primitives that one task divides.
 const CHUNK: usize = 4096;
 
@@ -74,23 +96,30 @@ impl<S> Pipeline<'_, S> {
         self.bvh.validate()?;
         self.limit.validate()?;
         self.threshold.validate()?;
-        let most = self.limit.references(primitives.len(), size_of::<P>())?;
+        let budget = &self.bvh.budget;
+        budget.check_bytes(primitives.len().saturating_mul(size_of::<Reference>()))?;
         let gathered = gather(primitives, self.bvh.invalid_primitives)?;
-        if gathered.references.is_empty() {
+        let whole = gathered.references.len();
+        budget.check_bytes(self.bvh.working_bytes(whole))?;
+        let most = self.limit.references(whole, size_of::<P>())?;
+        let target = self.threshold.target(whole, most)?;
+        if whole == 0 {
             return Ok((self.bvh.build(primitives)?, PresplitStatistics::default()));
         }
         let scene = Presplit {
             subdivision: &self.subdivision,
             primitives,
             wholes: &gathered.references,
+            observer,
         };
         let largest = self.subdivision.largest_threshold(&gathered.bounds);
-        let threshold = self.threshold.resolve(&scene, largest, most);
-        let parts = scene.parts(threshold, most)?;
-        let references = parts.len();
-        self.bvh
-            .budget
-            .check_bytes(self.bvh.working_bytes(references))?;
+        let threshold = self.threshold.resolve(&scene, target, largest, most)?;
+        let references = scene
+            .count(threshold, most)?
+            .ok_or_else(|| too_many(most))?;
+        let bytes_of_parts = 2 * references * size_of::<Reference>();
+        budget.check_bytes(self.bvh.working_bytes(references) + bytes_of_parts)?;
+        let parts = scene.parts(threshold);
         let rules = NodeRules::new(self.bvh, references);
         let ids: Vec<u32> = parts.iter().map(|part| part.id).collect();
         // While the tree is built each part needs a name of its own.
@@ -110,8 +139,8 @@ impl<S> Pipeline<'_, S> {
             references,
             references_in_leaves: tree.references(),
             threshold,
+            target,
         };
-        let budget = &self.bvh.budget;
         let bvh = Bvh::from_build_tree(primitives, &tree, bounds, gathered.skipped, budget)?;
         Ok((bvh, statistics))
     }
@@ -123,16 +152,23 @@ struct Presplit<'a, P, S> {
     primitives: &'a [P],
     /// The references of all valid primitives, undivided.
     wholes: &'a [Reference],
+    observer: &'a dyn BuildObserver,
 }
 
 impl<P: Primitive, S: Subdivision<P>> Presplit<'_, P, S> {
     /// How many parts there are; `None` if there are more than `most`.
-    fn count(&self, threshold: f64, most: usize) -> Option<usize> {
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`] if the observer asked for it.
+    fn count(&self, threshold: f64, most: usize) -> Result<Option<usize>, BuildError> {
         let total = AtomicUsize::new(0);
         map_each(
             self.wholes.chunks(CHUNK).collect(),
             |wholes: &[Reference]| {
                 for whole in wholes {
+                    if total.load(Ordering::Relaxed) > most || self.observer.is_cancelled() {
+                        return;
+                    }
                     let room = most.saturating_sub(total.load(Ordering::Relaxed));
                     let mut count = 0;
                     self.divide(whole, threshold, &mut |_| {
@@ -143,18 +179,14 @@ impl<P: Primitive, S: Subdivision<P>> Presplit<'_, P, S> {
                 }
             },
         );
-        Some(total.into_inner()).filter(|&count| count <= most)
+        if self.observer.is_cancelled() {
+            return Err(BuildError::Cancelled);
+        }
+        Ok(Some(total.into_inner()).filter(|&count| count <= most))
     }
 
     /// References to all parts, in order of primitives.
-    fn parts(&self, threshold: f64, most: usize) -> Result<Vec<Reference>, BuildError> {
-        if self.count(threshold, most).is_none() {
-            return Err(BuildError::BudgetExceeded {
-                what: "references",
-                needed: most + 1,
-                limit: most,
-            });
-        }
+    fn parts(&self, threshold: f64) -> Vec<Reference> {
         let chunks = self.wholes.chunks(CHUNK).collect();
         let parts = map_each(chunks, |wholes: &[Reference]| {
             let mut parts = Vec::with_capacity(wholes.len());
@@ -163,7 +195,7 @@ impl<P: Primitive, S: Subdivision<P>> Presplit<'_, P, S> {
             }
             parts
         });
-        Ok(parts.concat())
+        parts.concat()
     }
 
     fn push_parts(&self, whole: &Reference, threshold: f64, parts: &mut Vec<Reference>) {

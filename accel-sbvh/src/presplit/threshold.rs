@@ -14,7 +14,8 @@ pub enum Threshold {
     /// at least 1.
     Factor(f64),
     /// Whatever size makes this many references, within 0.5 % where sizes differ
-    /// enough for that: the comparison of Stich 2009, Table 1, needs it.
+    /// enough for that: the comparison of Stich 2009, Table 1, needs it. At least
+    /// one a primitive.
     References(usize),
 }
 
@@ -45,35 +46,71 @@ impl Threshold {
         })
     }
 
+    /// How many references to search for; `None` if the size is given.
+    ///
+    /// # Errors
+    /// [`BuildError::BudgetExceeded`] if there are more primitives than that, or
+    /// if it is over `most`.
+    pub(super) fn target(
+        &self,
+        primitives: usize,
+        most: usize,
+    ) -> Result<Option<usize>, BuildError> {
+        let target = match *self {
+            Self::Size(_) => return Ok(None),
+            Self::Factor(factor) => (primitives as f64 * factor) as usize,
+            Self::References(count) => count,
+        };
+        let exceeded = |needed, limit| {
+            Err(BuildError::BudgetExceeded {
+                what: "references",
+                needed,
+                limit,
+            })
+        };
+        if target < primitives {
+            return exceeded(primitives, target);
+        }
+        if target > most {
+            return exceeded(target, most);
+        }
+        Ok(Some(target))
+    }
+
     /// The size, found by bisection unless it is given; `most` references are
     /// never exceeded by one that is found.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`] if the observer asked for it.
     pub(super) fn resolve<P: Primitive, S: Subdivision<P>>(
         &self,
         scene: &Presplit<'_, P, S>,
+        target: Option<usize>,
         largest: f64,
         most: usize,
-    ) -> f64 {
-        let target = match *self {
-            Self::Size(size) => return size,
-            Self::Factor(factor) => (scene.wholes.len() as f64 * factor) as usize,
-            Self::References(count) => count,
+    ) -> Result<f64, BuildError> {
+        let target = match (*self, target) {
+            (Self::Size(size), _) => return Ok(size),
+            (_, target) => target.unwrap_or(most),
         };
-        let target = target.min(most);
         // Fewer references above, more below; the larger threshold is kept.
         let (mut above, mut below) = (largest, largest * SMALLEST);
         for _ in 0..MOST_STEPS {
             let middle = (above * below).sqrt();
-            let count = scene.count(middle, most);
-            let is_close =
-                |count: &usize| count.abs_diff(target) as f64 <= TOLERANCE * target as f64;
-            if count.as_ref().is_some_and(is_close) {
-                return middle;
+            let count = scene.count(middle, most)?;
+            if count.is_some_and(|count| is_close(count, target)) {
+                return Ok(middle);
             }
             match count {
                 Some(count) if count < target => above = middle,
                 _ => below = middle,
             }
         }
-        above
+        Ok(above)
     }
+}
+
+/// Whether a number of references is the one asked for, within the tolerance.
+pub(super) fn is_close(count: usize, target: usize) -> bool {
+    count.abs_diff(target) as f64 <= TOLERANCE * target as f64
 }

@@ -268,6 +268,27 @@ fn invalid_primitives_are_named_or_skipped() {
 }
 
 #[test]
+fn skipped_primitives_leave_nothing_to_spend() {
+    let mut triangles = scene("long-diagonals", 1000);
+    let nowhere = Triangle::new([f32::NAN; 3], [0.0; 3], [1.0; 3]);
+    triangles.extend([nowhere; 1000]);
+    for limit in [ReferenceLimit::Factor(1.1), ReferenceLimit::Count(1100)] {
+        let builder = SbvhBuilder {
+            limit,
+            invalid_primitives: InvalidPrimitives::Skip,
+            ..SbvhBuilder::default()
+        };
+        let (bvh, statistics) = builder.build_with(&triangles, &()).unwrap();
+        bvh.validate().unwrap();
+        assert_eq!(statistics.primitives, 1000);
+        assert!(
+            (1050..=1100).contains(&statistics.references),
+            "{statistics:?}"
+        );
+    }
+}
+
+#[test]
 fn depth_is_kept_within_its_limit() {
     let builder = SbvhBuilder {
         alpha: 0.0,

@@ -1,11 +1,15 @@
 //! Early split clipping and the edge volume heuristic against brute force.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use accel_core::testing::families;
 use accel_core::testing::family_check::{Effort, check_families};
-use accel_sbvh::presplit::{EarlySplitClipping, EdgeVolumeHeuristic, Threshold};
+use accel_sbvh::presplit::{
+    EarlySplitClipping, EdgeVolumeHeuristic, PresplitStatistics, Threshold,
+};
 use accel_sbvh::{
-    AccelerationStructure, BuildError, BvhBuilder, InvalidPrimitives, LeafRule, ObjectSplit,
-    ReferenceLimit, Sphere, SurfaceAreaHeuristic, Triangle,
+    AccelerationStructure, BuildBudget, BuildError, BuildObserver, BvhBuilder, InvalidPrimitives,
+    LeafRule, ObjectSplit, ReferenceLimit, Sphere, SurfaceAreaHeuristic, Triangle,
 };
 
 const EFFORT: Effort = Effort {
@@ -75,7 +79,11 @@ fn a_threshold_is_found_within_half_a_percent() {
             threshold: Threshold::Size(statistics.threshold),
             ..EdgeVolumeHeuristic::default()
         };
-        assert_eq!(again.build_with(&triangles, &()).unwrap().1, statistics);
+        let expected = PresplitStatistics {
+            target: None,
+            ..statistics
+        };
+        assert_eq!(again.build_with(&triangles, &()).unwrap().1, expected);
     }
 }
 
@@ -104,6 +112,84 @@ fn a_given_threshold_that_makes_too_many_references_is_refused() {
     };
     let error = edges.build(&scene()).unwrap_err();
     assert!(error.to_string().contains("threshold"), "{error}");
+}
+
+#[test]
+fn targets_out_of_reach_are_refused_or_told() {
+    let triangles = scene();
+    let count = triangles.len();
+    for threshold in [
+        Threshold::References(count - 1),
+        Threshold::Factor(4.5),
+        Threshold::References(4 * count + 1),
+    ] {
+        let clipping = EarlySplitClipping {
+            threshold,
+            ..EarlySplitClipping::default()
+        };
+        let error = clipping.build(&triangles).unwrap_err();
+        assert!(
+            matches!(error, BuildError::BudgetExceeded { .. }),
+            "{threshold:?}: {error}"
+        );
+    }
+    // No edge of a triangle in an axis-aligned plane has a box of any volume.
+    let flat = [Triangle::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]); 8];
+    let edges = EdgeVolumeHeuristic {
+        threshold: Threshold::Factor(2.0),
+        ..EdgeVolumeHeuristic::default()
+    };
+    let (_, statistics) = edges.build_with(&flat, &()).unwrap();
+    assert_eq!((statistics.references, statistics.target), (8, Some(16)));
+    assert!(!statistics.is_target_met());
+}
+
+/// Cancels at the second question.
+#[derive(Default)]
+struct Impatient(AtomicUsize);
+
+impl BuildObserver for Impatient {
+    fn is_cancelled(&self) -> bool {
+        self.0.fetch_add(1, Ordering::Relaxed) > 0
+    }
+}
+
+#[test]
+fn a_presplit_can_be_cancelled_while_it_searches() {
+    let impatient = Impatient::default();
+    let clipping = EarlySplitClipping::default();
+    let error = clipping.build_with(&scene(), &impatient).unwrap_err();
+    assert_eq!(error, BuildError::Cancelled);
+    // Each thread may ask once more, and so may the one that gives up.
+    let asked = impatient.0.into_inner();
+    assert!(asked < 100, "{asked}");
+}
+
+#[test]
+fn a_presplit_takes_no_memory_over_its_budget() {
+    let with = |max_bytes, threshold| EarlySplitClipping {
+        threshold,
+        bvh: BvhBuilder {
+            budget: BuildBudget {
+                max_bytes: Some(max_bytes),
+                ..BuildBudget::default()
+            },
+            ..bvh()
+        },
+        ..EarlySplitClipping::default()
+    };
+    let triangles = scene();
+    // Not even the primitives, and the primitives but not the parts.
+    for max_bytes in [1000, 200 * triangles.len()] {
+        let clipping = with(max_bytes, Threshold::Factor(4.0));
+        let error = clipping.build(&triangles).unwrap_err();
+        assert!(
+            matches!(error, BuildError::BudgetExceeded { what: "bytes", limit, .. } if limit == max_bytes),
+            "{error}"
+        );
+    }
+    let ample = with(1000 * triangles.len(), Threshold::Factor(4.0));
+    assert!(ample.build(&triangles).is_ok());
 }
 
 #[test]
