@@ -164,11 +164,12 @@ impl<L: Lanes> RayLanes<L> {
     }
 }
 
-/// The lanes in which all three numbers are finite: a number minus itself is zero
-/// or NaN.
+/// The lanes in which all three numbers are finite: zero times another number is
+/// NaN.
 #[inline(always)]
 fn finite_mask<L: Lanes>([x, y, z]: [L; 3]) -> u32 {
-    ((x - x) + (y - y) + (z - z)).le_mask(L::splat(0.0))
+    let zero = L::splat(0.0);
+    (x * zero + y * zero + z * zero).le_mask(zero)
 }
 
 /// The lanes in which [`Axis::largest`] of the vectors is `axis`.
