@@ -241,8 +241,8 @@ impl<L: Lanes, P: Primitive, Q: Query, const VECTORS: usize> Group<'_, '_, L, P,
             let mask = if vector == first {
                 visit.mask
             } else if visit.parent == ROOT {
-                // A tree of one leaf, whose gates are tested anyway.
-                L::ALL
+                // A tree of one leaf, whose gates are tested anyway: all rays there are.
+                L::splat(0.0).le_mask(self.packet.t_max(vector))
             } else {
                 statistics.test_boxes(1);
                 let node = bvh.inner_node(visit.parent);
