@@ -75,8 +75,8 @@ impl<L: Lanes> CommonOrigin<L> {
             let largest = components.fold(0.0_f32, |most, component| most.max(component.abs()));
             rounding[axis] = f64::from(largest) * ROUNDING;
             let least = L::splat(in_single(rounding[axis]));
-            let reciprocal = |speed| one / least.max_or_keep(speed);
-            reciprocals[axis] = [reciprocal(zero - speed), reciprocal(speed)];
+            let speeds = [least.max_or_keep(zero - speed), least.max_or_keep(speed)];
+            reciprocals[axis] = [one / speeds[0], one / speeds[1]];
         }
         Self {
             origin: origin.as_dvec3(),

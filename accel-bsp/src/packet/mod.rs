@@ -27,7 +27,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
     #[inline(always)]
     fn prepare<L: Lanes>(&self, packet: &RayPacket<'_, L, 1>) -> Option<CommonOrigin<L>> {
         let origin = packet.shared().origin?;
-        Some(CommonOrigin::new(origin, packet.directions(0)))
+        Some(CommonOrigin::new(origin, packet.lanes(0).direction))
     }
 
     #[inline(always)]

@@ -121,8 +121,8 @@ impl<L: Lanes> CellVisit<L> {
     }
 }
 
+/// Every vector of a group goes down on its own.
 impl<A: CellTree> VectorTraversal for A {
-    /// Vectors go one by one.
     #[inline(always)]
     fn traverse_vectors<L: Lanes, Q, S, const VECTORS: usize>(
         &self,

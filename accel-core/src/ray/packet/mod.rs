@@ -172,23 +172,6 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
         &self.lanes[vector]
     }
 
-    /// The directions of the rays of a vector, in lanes; zero in lanes that are empty
-    /// or answered. Computed here, so ask once.
-    #[inline(always)]
-    pub fn directions(&self, vector: usize) -> [L; 3] {
-        let first = vector * L::COUNT;
-        let along = |axis: usize| {
-            L::from_fn(|lane| {
-                let is_empty = self.t_max[vector].lanes()[lane] == f32::NEG_INFINITY;
-                match self.rays.get(first + lane) {
-                    Some(ray) if !is_empty => ray.segment().direction[axis],
-                    _ => 0.0,
-                }
-            })
-        };
-        [along(0), along(1), along(2)]
-    }
-
     /// By lane, the `t` beyond which hits matter no more; minus infinity for
     /// lanes that are empty or answered.
     #[inline(always)]

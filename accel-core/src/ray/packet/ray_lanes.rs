@@ -13,6 +13,8 @@ use crate::simd::Lanes;
 pub struct RayLanes<L> {
     /// Where the rays start.
     pub origin: [L; 3],
+    /// Where they go.
+    pub direction: [L; 3],
     /// See [`PreparedRay::near_reciprocal`].
     pub near_reciprocal: [L; 3],
     /// See [`PreparedRay::far_reciprocal`].
@@ -67,6 +69,7 @@ impl<L: Lanes> RayLanes<L> {
         };
         let lanes = Self {
             origin,
+            direction: [x, y, z],
             near_reciprocal,
             far_reciprocal,
             t_min,
@@ -80,6 +83,7 @@ impl<L: Lanes> RayLanes<L> {
     pub(super) fn set(&mut self, lane: usize, ray: &PreparedRay) {
         for axis in 0..3 {
             self.origin[axis].lanes_mut()[lane] = ray.origin()[axis];
+            self.direction[axis].lanes_mut()[lane] = ray.direction()[axis];
             self.near_reciprocal[axis].lanes_mut()[lane] = ray.near_reciprocal()[axis];
             self.far_reciprocal[axis].lanes_mut()[lane] = ray.far_reciprocal()[axis];
         }
