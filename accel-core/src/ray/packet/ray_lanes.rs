@@ -164,8 +164,8 @@ impl<L: Lanes> RayLanes<L> {
     }
 }
 
-/// The lanes in which all three numbers are finite: a number times zero is zero
-/// or NaN.
+/// The lanes in which all three numbers are finite: zero times another number is
+/// NaN.
 #[inline(always)]
 fn finite_mask<L: Lanes>([x, y, z]: [L; 3]) -> u32 {
     let zero = L::splat(0.0);
