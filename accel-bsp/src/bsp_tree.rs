@@ -3,7 +3,9 @@
 use accel_core::geometry::rounding;
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
+use accel_core::simd::SimdLevel;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
+use accel_core::structure::traverse_cells;
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
 use crate::crossing::Tolerance;
@@ -147,4 +149,17 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
     }
 }
 
-impl<P: Primitive, const N: usize> PacketTraversal<N> for BspTree<P> {}
+/// Packets are vectors of 4, 8 or 16 rays; more than 16 are cut into vectors of 8.
+/// Those of one origin go together, others ray by ray.
+impl<P: Primitive, const N: usize> PacketTraversal<N> for BspTree<P> {
+    #[inline]
+    fn traverse_packet_at<Q: Query, S: TraversalStatistics>(
+        &self,
+        level: SimdLevel,
+        rays: &[Option<PreparedRay>; N],
+        queries: &mut [Q; N],
+        statistics: &mut S,
+    ) {
+        traverse_cells(self, level, rays, queries, statistics);
+    }
+}

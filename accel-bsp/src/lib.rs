@@ -34,7 +34,8 @@
 //! `candidates`, with the counts of `ends` and `sphere_hierarchy` and the areas of
 //! `polytope`, by the costs of `cost`; `pieces` divides what the node holds and
 //! `allowance` what it may use; `layout` packs the tree into the nodes of `node`;
-//! `traversal` walks them by the `crossing` of ray and plane; `traversal_based` and
+//! `traversal` walks them by the `crossing` of ray and plane, `packet` with many
+//! rays of one origin at once; `traversal_based` and
 //! `unconfirmed` are the paper's triangle test without a triangle test; `cells`
 //! walks a finished tree for its cost; `persistence` saves and loads.
 //!
@@ -53,6 +54,7 @@ mod crossing;
 mod ends;
 mod layout;
 mod node;
+mod packet;
 mod persistence;
 mod pieces;
 mod plane_tracking;
@@ -75,7 +77,7 @@ pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, Polygonal, PreparedRay, Primitive,
-    Quad, Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters,
-    TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
+    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PacketTraversal, Polygonal,
+    PreparedRay, Primitive, Quad, Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic,
+    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

@@ -17,7 +17,7 @@ use accel_core::layout::LeafStorage;
 use accel_core::query::{Hit, Query};
 use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
@@ -51,30 +51,35 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let interval = Interval {
+    let part = RayPart {
+        node: 0,
         near: max_or_keep(ray.t_min(), whole.near),
-        far: min_or_keep(query.t_max(), whole.far.min(f32::MAX)),
+        far: min_or_keep(query.t_max(), whole.far),
     };
-    if interval.near <= interval.far {
-        let root = Segment {
-            node: 0,
-            interval,
-            planes: T::of_ray(interval.near.into(), interval.far.into()),
-        };
+    if part.near <= part.far {
         let crossings = Crossings::new(ray, tolerance);
-        let _ = traverse_below(tree, root, &crossings, query, statistics);
+        let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
     }
 }
 
 /// Traverses the part of the tree below a node; breaks when the query does.
 #[inline]
-fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
+pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
-    mut segment: Segment<T>,
+    part: RayPart,
     crossings: &Crossings<'_>,
     query: &mut Q,
     statistics: &mut S,
 ) -> ControlFlow<()> {
+    let interval = Interval {
+        near: part.near,
+        far: part.far.min(f32::MAX),
+    };
+    let mut segment = Segment {
+        node: part.node,
+        interval,
+        planes: T::of_ray(interval.near.into(), interval.far.into()),
+    };
     let mut stack: TraversalStack<PutOff<T>> = TraversalStack::new();
     loop {
         let node = &tree.nodes[segment.node as usize];

@@ -44,8 +44,8 @@ pub(crate) struct Crossings {
 /// Where the rays of a vector cross planes, if all their directions have the same
 /// signs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CrossingLanes<L> {
-    pub axes: [Crossing<L>; 4],
+pub struct CrossingLanes<L> {
+    pub(crate) axes: [Crossing<L>; 4],
 }
 
 /// What tells where rays cross planes orthogonal to one axis.

@@ -4,10 +4,10 @@ use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::simd::SimdLevel;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
+use accel_core::structure::traverse_cells;
 use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
 
 use crate::node::{Leaf, Node, NodeKind};
-use crate::packet::TracePacket;
 use crate::part::Slack;
 
 /// A kd-tree in nodes of 8 bytes. Made by
@@ -121,11 +121,6 @@ impl<P: Primitive, const N: usize> PacketTraversal<N> for KdTree<P> {
         queries: &mut [Q; N],
         statistics: &mut S,
     ) {
-        level.run(TracePacket {
-            tree: self,
-            rays,
-            queries,
-            statistics,
-        });
+        traverse_cells(self, level, rays, queries, statistics);
     }
 }

@@ -25,20 +25,12 @@ use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
 use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::KdTree;
 use crate::crossing::{Crossings, Tolerance};
 use crate::node::{Leaf, NODE_BYTES};
-
-/// A node, and the part of the ray inside its cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Segment {
-    pub node: u32,
-    pub near: f32,
-    pub far: f32,
-}
 
 /// A node put off, and where the ray leaves it.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +49,7 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let root = Segment {
+    let root = RayPart {
         node: 0,
         near: max_or_keep(ray.t_min(), whole.near),
         far: min_or_keep(query.t_max(), whole.far),
@@ -72,7 +64,7 @@ pub(crate) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
 #[inline]
 pub(crate) fn traverse_below<P: Primitive, Q: Query, S: TraversalStatistics>(
     tree: &KdTree<P>,
-    mut segment: Segment,
+    mut segment: RayPart,
     crossings: &Crossings,
     ray: &PreparedRay,
     query: &mut Q,
@@ -112,7 +104,7 @@ pub(crate) fn traverse_below<P: Primitive, Q: Query, S: TraversalStatistics>(
         let Some(next) = stack.pop_entry_within(query.t_max()) else {
             return ControlFlow::Continue(());
         };
-        segment = Segment {
+        segment = RayPart {
             node: next.node.node,
             near: next.near,
             far: min_or_keep(next.node.far, query.t_max()),

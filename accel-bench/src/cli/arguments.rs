@@ -165,7 +165,7 @@ pub(super) struct PaperOptions {
     /// Pixels of each viewpoint, across and down
     #[arg(long, default_value = "256x192", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
-    /// Viewpoints: the camera, and as many more around it; `dual-split` has one
+    /// Viewpoints: the camera, and as many more around it; `dual-split` and `bsp` have one
     #[arg(long, default_value_t = 4, value_name = "N")]
     pub viewpoints: usize,
     /// How long ambient occlusion rays are, in diagonals of the scene
@@ -188,6 +188,8 @@ pub(super) enum Paper {
     Sbvh,
     /// Lin, Shkurko, Mallett and Yuksel 2019: Tables 1 to 3 and Figure 10
     DualSplit,
+    /// Ize, Wald and Parker 2008: Tables 1 to 3, Figure 3, the sweep of C_i, a hot spot
+    Bsp,
 }
 
 #[derive(Debug, Args)]

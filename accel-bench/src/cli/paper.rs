@@ -7,7 +7,7 @@ use anyhow::Context;
 
 use super::arguments::{Paper, PaperOptions};
 use super::{interrupt, load, with_threads};
-use crate::paper::{Found, dual_split, sbvh};
+use crate::paper::{Found, bsp, dual_split, sbvh};
 use crate::report::document::{self, Document};
 use crate::report::table::TableStyle;
 use crate::scene::Scene;
@@ -24,6 +24,7 @@ pub(super) fn run(options: &PaperOptions) -> anyhow::Result<bool> {
     let document = with_threads(options.scene.threads, || match options.paper {
         Paper::Sbvh => of_sbvh(options),
         Paper::DualSplit => of_dual_split(options),
+        Paper::Bsp => of_bsp(options),
     })?;
     present(&document, options)?;
     Ok(document.disagreements == 0)
@@ -54,6 +55,19 @@ fn of_dual_split(options: &PaperOptions) -> anyhow::Result<Document> {
     let (source, scenes) = (dual_split::SOURCE, &dual_split::SCENES);
     document("Dual-split trees", source, scenes, options, |scene| {
         dual_split::measure(scene, &settings)
+    })
+}
+
+fn of_bsp(options: &PaperOptions) -> anyhow::Result<Document> {
+    let settings = bsp::Settings {
+        size: options.size,
+        rounds: options.rounds,
+        seed: options.scene.seed,
+        invalid: options.scene.invalid(),
+    };
+    let (source, scenes) = (bsp::SOURCE, &bsp::SCENES);
+    document("The BSP tree", source, scenes, options, |scene| {
+        bsp::measure(scene, &settings)
     })
 }
 

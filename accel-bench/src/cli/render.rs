@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::BufWriter;
-use std::time::Instant;
 
 use accel_core::glam::Vec3;
 use accel_core::{DynStructure, Hit, RaySegment, TraversalCounters};
@@ -14,9 +13,6 @@ use crate::measure;
 use crate::registry;
 use crate::report::png;
 use crate::scene::Scene;
-
-/// Times a pixel is traced for its time; the shortest counts.
-const TIME_ROUNDS: usize = 5;
 
 /// Draws and writes the picture.
 pub(super) fn run(options: &RenderOptions) -> anyhow::Result<bool> {
@@ -73,7 +69,7 @@ fn picture(
         Show::Planes => count(|counters| counters.plane_tests.sum),
         Show::Tests => count(|counters| counters.primitive_tests.sum),
         Show::Cost => count(|counters| counters.nodes.sum + counters.primitive_tests.sum),
-        Show::Time => Picture::Values(nanoseconds(structure, rays)),
+        Show::Time => Picture::Values(measure::nanoseconds_of_pixels(structure, rays)),
     }
 }
 
@@ -111,19 +107,4 @@ fn colours(
                 .map(|channel| channel as u8)
         })
         .collect()
-}
-
-/// The time of each pixel's ray on one thread.
-fn nanoseconds(structure: &dyn DynStructure, rays: &[RaySegment]) -> Vec<u32> {
-    let mut shortest = vec![u32::MAX; rays.len()];
-    let mut hit = [None];
-    for _ in 0..TIME_ROUNDS {
-        for (ray, shortest) in rays.iter().zip(&mut shortest) {
-            let start = Instant::now();
-            structure.trace_closest(std::slice::from_ref(ray), &mut hit);
-            let elapsed = start.elapsed().as_nanos().min(u128::from(u32::MAX)) as u32;
-            *shortest = (*shortest).min(elapsed);
-        }
-    }
-    shortest
 }

@@ -62,10 +62,12 @@ struct Trial {
 }
 
 fn verify_scene(scene: &Scene, rows: &[&Row], options: &VerifyOptions) -> anyhow::Result<Tally> {
+    let names: Vec<&str> = rows.iter().map(|row| row.name).collect();
     say(&format!(
-        "{} ({} triangles)",
+        "{} ({} triangles): {}",
         scene.name,
-        scene.triangles.len()
+        scene.triangles.len(),
+        names.join(", ")
     ))?;
     let invalid = options.scene.invalid();
     let oracle = registry::oracle(&scene.triangles, invalid)?;
@@ -73,8 +75,7 @@ fn verify_scene(scene: &Scene, rows: &[&Row], options: &VerifyOptions) -> anyhow
         .iter()
         .map(|row| build(row, scene, invalid))
         .collect::<anyhow::Result<Vec<Structure>>>()?;
-    let structures: Vec<(&str, Structure)> =
-        rows.iter().map(|row| row.name).zip(structures).collect();
+    let structures: Vec<(&str, Structure)> = names.into_iter().zip(structures).collect();
     let mut tally = Tally::default();
     for trial in trials(scene, options)? {
         if interrupt::is_requested() {
@@ -94,30 +95,42 @@ fn verify_scene(scene: &Scene, rows: &[&Row], options: &VerifyOptions) -> anyhow
     Ok(tally)
 }
 
-/// Compares all structures on one set of rays, a line each.
+/// Compares all structures on one set of rays: a line for the set, and one for
+/// each structure that disagrees.
 fn compare(
     structures: &[(&str, Structure)],
     trial: &str,
     expected: &Expected,
 ) -> anyhow::Result<Tally> {
     let mut tally = Tally::default();
+    let mut disagreeing = Vec::new();
     for (name, structure) in structures {
         let disagreements = expected.disagreements(structure.as_ref());
-        say(&format!(
-            "  {name:<16} {trial:<28} {:>9} rays  {:>6} disagreements",
-            expected.len(),
-            disagreements.len()
-        ))?;
-        for found in disagreements.iter().take(PRINTED) {
-            say(&format!(
-                "    {:?}\n      expected {:?}\n      got      {:?}",
-                found.ray, found.expected, found.actual
-            ))?;
-        }
         tally.add(&Tally {
             rays: expected.len(),
             disagreements: disagreements.len(),
         });
+        if !disagreements.is_empty() {
+            disagreeing.push((name, disagreements));
+        }
+    }
+    say(&format!(
+        "  {trial:<28} {:>9} rays x {:>2} structures  {:>6} disagreements",
+        expected.len(),
+        structures.len(),
+        tally.disagreements
+    ))?;
+    for (name, disagreements) in disagreeing {
+        say(&format!(
+            "    {name}: {} disagreements",
+            disagreements.len()
+        ))?;
+        for found in disagreements.iter().take(PRINTED) {
+            say(&format!(
+                "      {:?}\n        expected {:?}\n        got      {:?}",
+                found.ray, found.expected, found.actual
+            ))?;
+        }
     }
     Ok(tally)
 }

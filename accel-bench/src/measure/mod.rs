@@ -4,4 +4,4 @@ mod counting;
 mod timing;
 
 pub use counting::{count, count_pixels};
-pub use timing::{Timings, time_rounds};
+pub use timing::{Timings, nanoseconds_of_pixels, time_rounds};

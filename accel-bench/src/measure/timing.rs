@@ -62,6 +62,23 @@ pub fn time_rounds(
     timings
 }
 
+/// The time of each pixel's ray on the calling thread, the shortest of a few; closest
+/// hits.
+pub fn nanoseconds_of_pixels(structure: &dyn DynStructure, rays: &[RaySegment]) -> Vec<u32> {
+    const ROUNDS: usize = 5;
+    let mut shortest = vec![u32::MAX; rays.len()];
+    let mut hit = [None];
+    for _ in 0..ROUNDS {
+        for (ray, shortest) in rays.iter().zip(&mut shortest) {
+            let start = Instant::now();
+            structure.trace_closest(std::slice::from_ref(ray), &mut hit);
+            let elapsed = start.elapsed().as_nanos().min(u128::from(u32::MAX)) as u32;
+            *shortest = (*shortest).min(elapsed);
+        }
+    }
+    shortest
+}
+
 fn trace(structure: &dyn DynStructure, question: Question, rays: &[RaySegment]) {
     rays.par_chunks(CHUNK).for_each(|rays| match question {
         Question::Closest => {

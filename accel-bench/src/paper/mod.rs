@@ -1,5 +1,6 @@
 //! What papers measured, measured again, beside their published figures.
 
+pub mod bsp;
 pub mod dual_split;
 pub mod sbvh;
 

@@ -39,7 +39,7 @@ pub(super) static ROWS: &[Row] = &[
     },
 ];
 
-fn heuristic() -> SurfaceAreaHeuristic {
+pub(super) fn heuristic() -> SurfaceAreaHeuristic {
     let costs = BspCosts::default();
     SurfaceAreaHeuristic {
         traversal_cost: costs.axis_aligned,

@@ -1,13 +1,14 @@
 //! The rows of structures that trace packets. Their counts are those of single
 //! rays.
 
+use accel_bsp::BspBuilder;
 use accel_bvh::{BvhBuilder, ObjectSplit};
 use accel_core::{
     BuildError, BuildObserver, InPackets, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
 };
 use accel_kdtree::KdTreeBuilder;
 
-use super::{Row, Structure};
+use super::{Row, Structure, bsp};
 
 pub(super) static ROWS: &[Row] = &[
     Row {
@@ -66,6 +67,81 @@ pub(super) static ROWS: &[Row] = &[
         heuristic: kd_heuristic,
         build: build_kdtree::<16>,
     },
+    Row {
+        name: "bsp-packet",
+        is_headline: false,
+        about: "bsp in packets of 8 rays of one origin, one vector of 8 lanes",
+        settings: "as bsp; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<8>(BspBuilder::default(), triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "bsp-4-packet",
+        is_headline: false,
+        about: "bsp in packets of 4 rays of one origin",
+        settings: "as bsp; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<4>(BspBuilder::default(), triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "bsp-16-packet",
+        is_headline: false,
+        about: "bsp in packets of 16 rays of one origin, one vector of 16 lanes",
+        settings: "as bsp; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<16>(BspBuilder::default(), triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "bsp-tri-packet",
+        is_headline: false,
+        about: "bsp-tri in packets of 8 rays of one origin, one vector of 8 lanes",
+        settings: "as bsp-tri; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<8>(
+                BspBuilder::with_planar_leaves(),
+                triangles,
+                invalid,
+                observer,
+            )
+        },
+    },
+    Row {
+        name: "bsp-tri-4-packet",
+        is_headline: false,
+        about: "bsp-tri in packets of 4 rays of one origin",
+        settings: "as bsp-tri; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<4>(
+                BspBuilder::with_planar_leaves(),
+                triangles,
+                invalid,
+                observer,
+            )
+        },
+    },
+    Row {
+        name: "bsp-tri-16-packet",
+        is_headline: false,
+        about: "bsp-tri in packets of 16 rays of one origin, one vector of 16 lanes",
+        settings: "as bsp-tri; coherent rays only",
+        heuristic: bsp::heuristic,
+        build: |triangles, invalid, observer| {
+            build_bsp::<16>(
+                BspBuilder::with_planar_leaves(),
+                triangles,
+                invalid,
+                observer,
+            )
+        },
+    },
 ];
 
 fn build_bvh<const N: usize>(
@@ -95,6 +171,17 @@ fn build_kdtree<const N: usize>(
         invalid_primitives,
         ..KdTreeBuilder::default()
     };
+    let tree = builder.build_with(triangles, observer)?;
+    Ok(Box::new(InPackets::<_, N>(tree)))
+}
+
+fn build_bsp<const N: usize>(
+    mut builder: BspBuilder,
+    triangles: &[Triangle],
+    invalid_primitives: InvalidPrimitives,
+    observer: &dyn BuildObserver,
+) -> Result<Structure, BuildError> {
+    builder.invalid_primitives = invalid_primitives;
     let tree = builder.build_with(triangles, observer)?;
     Ok(Box::new(InPackets::<_, N>(tree)))
 }

@@ -1,7 +1,7 @@
 //! What vectors of every width can do.
 
 use std::fmt::Debug;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use super::Doubles;
 
@@ -10,7 +10,14 @@ use super::Doubles;
 ///
 /// Masks hold a bit per lane, the first lane lowest.
 pub trait Lanes:
-    Copy + Debug + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
 {
     /// How many lanes there are: at most 16.
     const COUNT: usize;

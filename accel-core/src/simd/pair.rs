@@ -1,6 +1,6 @@
 //! A vector made of two.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use super::{Lanes, PairOfDoubles};
 
@@ -30,6 +30,14 @@ impl<L: Lanes> Mul for Pair<L> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self(self.0 * other.0, self.1 * other.1)
+    }
+}
+
+impl<L: Lanes> Div for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0, self.1 / other.1)
     }
 }
 

@@ -29,6 +29,7 @@ fn agrees_with_scalars<L: Lanes>() {
             same(x + y, x, y, |a, b| a + b);
             same(x - y, x, y, |a, b| a - b);
             same(x * y, x, y, |a, b| a * b);
+            same(x / y, x, y, |a, b| a / b);
             same(x.max_or_keep(y), x, y, max_or_keep);
             same(x.min_or_keep(y), x, y, min_or_keep);
             let mask = |compare: fn(&f32, &f32) -> bool| {

@@ -42,6 +42,15 @@ impl std::ops::Mul for F32x8 {
     }
 }
 
+impl std::ops::Div for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { intel::_mm256_div_ps(self.0, other.0) })
+    }
+}
+
 impl Lanes for F32x8 {
     const COUNT: usize = 8;
 

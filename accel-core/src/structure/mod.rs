@@ -1,5 +1,6 @@
 //! What every acceleration structure can do.
 
+mod cell_packet;
 mod dynamic;
 mod in_packets;
 mod packet;
@@ -15,6 +16,7 @@ use crate::ray::{PreparedRay, Ray};
 use crate::split::SurfaceAreaHeuristic;
 use crate::statistics::{BytesByPart, TraversalStatistics, TreeOutline, TreeStatistics};
 
+pub use cell_packet::{CellTree, CellVisit, Division, RayPart, traverse_cells};
 pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;

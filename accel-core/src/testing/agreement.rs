@@ -30,7 +30,7 @@ struct Answers {
 }
 
 /// A hit, compared bit for bit.
-type HitBits = (u32, u32, u32, u32);
+pub(super) type HitBits = (u32, u32, u32, u32);
 
 /// A ray that a structure answers differently from brute force.
 #[derive(Clone, Debug)]
@@ -71,9 +71,18 @@ impl Expected {
     /// # Errors
     /// As [`oracle`].
     pub fn new(triangles: &[Triangle], rays: Vec<RaySegment>) -> Result<Self, BuildError> {
-        let oracle = oracle(triangles)?;
-        let answers = rays.iter().map(|ray| Answers::of(&oracle, ray)).collect();
-        Ok(Self { rays, answers })
+        Ok(Self::by(&oracle(triangles)?, rays))
+    }
+
+    /// What `structure` answers to `rays`, one by one.
+    pub fn by<A: AccelerationStructure>(structure: &A, rays: Vec<RaySegment>) -> Self {
+        let answers = rays.iter().map(|ray| Answers::of(structure, ray)).collect();
+        Self { rays, answers }
+    }
+
+    /// All hits of ray `index`, sorted.
+    pub(super) fn all_hits(&self, index: usize) -> &[HitBits] {
+        &self.answers[index].all
     }
 
     /// How many rays hit anything.
@@ -82,7 +91,7 @@ impl Expected {
     }
 
     /// The rays that `structure` answers differently: closest hit, any hit, all
-    /// hits, and a filtered query.
+    /// hits.
     pub fn disagreements<A: AccelerationStructure>(&self, structure: &A) -> Vec<Disagreement> {
         self.rays
             .iter()
@@ -127,6 +136,6 @@ impl Answers {
     }
 }
 
-fn bits(hit: &Hit) -> HitBits {
+pub(super) fn bits(hit: &Hit) -> HitBits {
     (hit.t.to_bits(), hit.id, hit.u.to_bits(), hit.v.to_bits())
 }

@@ -8,6 +8,7 @@ mod edge;
 pub mod families;
 pub mod family_check;
 pub mod mesh_file;
+pub mod packets;
 mod random;
 pub mod rays;
 #[cfg(feature = "proptest")]

@@ -76,6 +76,7 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
         ],
         notes: tables::notes(&frame, settings),
         charts: tables::figure_10(&methods, &times),
+        pictures: Vec::new(),
     };
     Ok(Found {
         section,

@@ -71,6 +71,7 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
         tables: vec![table::of_methods(&scene.name, &all, &work, &speeds)],
         notes: table::notes(&all, &rays, settings),
         charts: Vec::new(),
+        pictures: Vec::new(),
     };
     let (alpha_table, alpha_chart) = sweeps::alpha(&scene.triangles, settings.invalid)?;
     section.tables.push(alpha_table);

@@ -6,7 +6,7 @@ use minijinja::{AutoEscape, Environment, context};
 use serde::Serialize;
 
 use super::{Document, LineChart, Section, Series};
-use crate::report::html::{HtmlError, STYLE};
+use crate::report::html::{HtmlError, STYLE, data_uri};
 
 /// The size of a chart's plot, in its own units.
 const PLOT: (f64, f64) = (560.0, 220.0);
@@ -20,6 +20,16 @@ struct SectionView<'a> {
     notes: &'a [String],
     tables: Vec<TableView<'a>>,
     charts: Vec<ChartView<'a>>,
+    pictures: Vec<PictureView<'a>>,
+}
+
+#[derive(Serialize)]
+struct PictureView<'a> {
+    caption: &'a str,
+    width: u32,
+    height: u32,
+    /// As a data URI.
+    image: String,
 }
 
 #[derive(Serialize)]
@@ -62,7 +72,8 @@ pub fn write_html(document: &Document, out: &mut impl Write) -> Result<(), HtmlE
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.add_template("document", include_str!("document.html.jinja"))?;
-    let sections: Vec<_> = document.sections.iter().map(section).collect();
+    let sections = document.sections.iter().map(section);
+    let sections = sections.collect::<Result<Vec<_>, _>>()?;
     let page = environment.get_template("document")?.render(context! {
         style => STYLE,
         document => document,
@@ -74,7 +85,7 @@ pub fn write_html(document: &Document, out: &mut impl Write) -> Result<(), HtmlE
     Ok(())
 }
 
-fn section(section: &Section) -> SectionView<'_> {
+fn section(section: &Section) -> Result<SectionView<'_>, HtmlError> {
     let tables = section.tables.iter().map(|table| TableView {
         caption: &table.caption,
         headings: &table.headings,
@@ -87,12 +98,21 @@ fn section(section: &Section) -> SectionView<'_> {
             })
             .collect(),
     });
-    SectionView {
+    let pictures = section.pictures.iter().map(|picture| {
+        Ok(PictureView {
+            caption: &picture.caption,
+            width: picture.width,
+            height: picture.height,
+            image: data_uri(picture.width, picture.height, &picture.rgb)?,
+        })
+    });
+    Ok(SectionView {
         heading: &section.heading,
         notes: &section.notes,
         tables: tables.collect(),
         charts: section.charts.iter().map(chart).collect(),
-    }
+        pictures: pictures.collect::<Result<_, HtmlError>>()?,
+    })
 }
 
 fn chart(chart: &LineChart) -> ChartView<'_> {

@@ -43,6 +43,22 @@ pub struct Section {
     pub tables: Vec<DocumentTable>,
     /// Charts.
     pub charts: Vec<LineChart>,
+    /// Pictures, side by side; for the page alone.
+    #[serde(skip)]
+    pub pictures: Vec<Picture>,
+}
+
+/// A picture.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// What it shows.
+    pub caption: String,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Three bytes a pixel, row by row from the top.
+    pub rgb: Vec<u8>,
 }
 
 /// A table.

@@ -12,6 +12,8 @@ use super::model::{Cell, Pictures, Report};
 use charts::Chart;
 use pictures::SceneMaps;
 
+pub(super) use pictures::data_uri;
+
 /// How pages look, in light and in dark.
 pub(super) const STYLE: &str = include_str!("style.css");
 

@@ -88,7 +88,12 @@ fn quantity_maps(quantity: Quantity, maps: &[&HeatMap]) -> Result<QuantityMaps, 
     })
 }
 
-fn data_uri(width: u32, height: u32, rgb: &[u8]) -> Result<String, HtmlError> {
+/// A picture of three bytes a pixel, as part of a page.
+pub(in crate::report) fn data_uri(
+    width: u32,
+    height: u32,
+    rgb: &[u8],
+) -> Result<String, HtmlError> {
     let mut bytes = Vec::new();
     png::write_rgb(&mut bytes, width, height, rgb)?;
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))

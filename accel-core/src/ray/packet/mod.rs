@@ -115,6 +115,25 @@ impl<'a, L: Lanes, const VECTORS: usize> RayPacket<'a, L, VECTORS> {
         &self.lanes[vector]
     }
 
+    /// The directions of the rays of a vector, in lanes; empty lanes hold that of
+    /// another ray of the packet.
+    #[inline(always)]
+    pub fn directions(&self, vector: usize) -> [L; 3] {
+        let mut directions = [L::splat(0.0); 3];
+        let Some(any) = self.rays.iter().flatten().next() else {
+            return directions;
+        };
+        let rays = self.rays.iter().skip(vector * L::COUNT);
+        let in_lanes = rays.chain(std::iter::repeat(&None)).take(L::COUNT);
+        for (lane, ray) in in_lanes.enumerate() {
+            let direction = ray.as_ref().unwrap_or(any).direction();
+            for axis in 0..3 {
+                directions[axis].lanes_mut()[lane] = direction[axis];
+            }
+        }
+        directions
+    }
+
     /// By lane, the `t` beyond which hits matter no more; minus infinity for
     /// lanes that are empty or answered.
     #[inline(always)]

@@ -1,7 +1,11 @@
-//! Every variant on every scene family, against brute force.
+//! Every variant on every scene family, against brute force: single rays, and packets
+//! of every width at every level of vectors that the machine has.
 
 use accel_bsp::{BspBuilder, InvalidPrimitives, Triangle};
+use accel_core::testing::agreement::Expected;
+use accel_core::testing::families;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::packets::{check_width, ray_sets};
 
 fn check(effort: &Effort, builders: &[BspBuilder]) -> Checked {
     let build = |triangles: &[Triangle]| {
@@ -57,4 +61,32 @@ fn other_epsilons_and_the_exhaustive_search_agree_on_every_family() {
     let settings = [with_epsilon(24), with_epsilon(14), exhaustive];
     let checked = check(&part, &settings);
     assert!(checked.hits > 2_000, "{checked:?}");
+}
+
+#[test]
+fn packets_of_every_variant_agree_with_brute_force_on_every_family() {
+    let variants = [
+        BspBuilder::default(),
+        BspBuilder::original(),
+        BspBuilder::with_planar_leaves(),
+        BspBuilder::with_bounded_leaves(),
+    ];
+    let mut hits = 0;
+    for (index, family) in families::all().iter().enumerate() {
+        let scene = family.scene(7, 200);
+        let builder = BspBuilder {
+            invalid_primitives: InvalidPrimitives::Skip,
+            ..variants[index % variants.len()]
+        };
+        let tree = builder.build(&scene).unwrap();
+        for (set, rays) in ray_sets(&scene, 7) {
+            let expected = Expected::new(&scene, rays).unwrap();
+            let checked = check_width::<_, 4>(&tree, &expected)
+                .and_then(|()| check_width::<_, 8>(&tree, &expected))
+                .and_then(|()| check_width::<_, 16>(&tree, &expected));
+            checked.unwrap_or_else(|error| panic!("{}, {set}: {error}", family.name));
+            hits += expected.hits();
+        }
+    }
+    assert!(hits > 5_000, "{hits}");
 }
