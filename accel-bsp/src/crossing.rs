@@ -236,7 +236,7 @@ impl Interval {
 
     /// From where a node is entered.
     #[inline]
-    pub(crate) fn from(self, entry: f32) -> Self {
+    pub(crate) fn after(self, entry: f32) -> Self {
         Self {
             near: max_or_keep(self.near, entry),
             ..self

@@ -128,7 +128,7 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
                     far: interval.far,
                     planes: put_off,
                 };
-                stack.push(put_off, interval.from(entry).near);
+                stack.push(put_off, interval.after(entry).near);
                 segment = Segment {
                     node: children + nearer,
                     interval: interval.until(exit),
