@@ -1,5 +1,6 @@
 //! The tree.
 
+use accel_core::geometry::rounding;
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
@@ -8,6 +9,7 @@ use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 use crate::crossing::Tolerance;
 use crate::node::{Node, NodeKind};
 use crate::plane_tracking::Untracked;
+use crate::polytope::Polytope;
 use crate::traversal::traverse;
 
 /// A general BSP tree in nodes of 20 bytes. Made by
@@ -46,6 +48,12 @@ impl<P: Primitive> BspTree<P> {
     /// Whether both trees have the same nodes in the same order.
     pub fn has_same_nodes(&self, other: &Self) -> bool {
         self.nodes == other.nodes
+    }
+
+    /// The ids of a leaf; none of an inner node.
+    pub(crate) fn ids_of(&self, node: Node) -> impl Iterator<Item = u32> + '_ {
+        let leaf = node.leaf_number().into_iter();
+        leaf.flat_map(|leaf| self.stored.leaves().leaf_ids(leaf))
     }
 
     /// Counts nodes and leaves by kind.
@@ -104,39 +112,36 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
         size_of_val(self.nodes.as_slice())
     }
 
-    /// Bounds are boxes around the cells, cut by the axis-aligned planes alone.
+    /// Areas are those of the cells, bounds the boxes around them.
     fn outline(&self) -> TreeOutline {
-        let mut outline = TreeOutline::default();
-        let root = self.bounds.map(|bounds| (0, bounds, None));
-        let mut pending: Vec<(u32, Aabb, Option<u32>)> = root.into_iter().collect();
-        while let Some((index, bounds, parent)) = pending.pop() {
-            let (children, boxes) = match self.nodes[index as usize].kind() {
-                NodeKind::Empty => {
-                    outline.push_leaf(bounds, parent, std::iter::empty());
-                    continue;
-                }
-                NodeKind::Leaf(leaf)
-                | NodeKind::PlanarLeaf { leaf, .. }
-                | NodeKind::BoundedLeaf { leaf, .. } => {
-                    let ids = self.stored.leaves().leaf_ids(leaf);
-                    outline.push_leaf(bounds, parent, ids);
-                    continue;
-                }
-                NodeKind::General { children, .. } => (children, [bounds; 2]),
-                NodeKind::AxisAligned {
-                    axis,
-                    position,
-                    children,
-                    ..
-                } => {
-                    let behind = bounds.with_range(axis, f32::MIN, position);
-                    let in_front = bounds.with_range(axis, position, f32::MAX);
-                    (children, [behind, in_front])
-                }
+        let mut outline = TreeOutline {
+            divides_space: true,
+            ..TreeOutline::default()
+        };
+        let root = self
+            .bounds
+            .map(|bounds| (0, Polytope::of_box(&bounds), None));
+        let mut pending: Vec<(u32, Polytope, Option<u32>)> = root.into_iter().collect();
+        while let Some((index, cell, parent)) = pending.pop() {
+            let node = self.nodes[index as usize];
+            let [low, high] = cell.bounds();
+            let bounds = Aabb {
+                min: rounding::vec3_down(low),
+                max: rounding::vec3_up(high),
             };
-            let node = outline.push_inner(StatisticsKind::Inner, bounds, parent);
-            pending.push((children + 1, boxes[1], Some(node)));
-            pending.push((children, boxes[0], Some(node)));
+            let position = match (node.plane(), node.children()) {
+                (Some(plane), Some(children)) => {
+                    let position = outline.push_inner(StatisticsKind::Inner, bounds, parent);
+                    // The planes of a loaded tree may miss their cells.
+                    let parts = cell.cut(&plane);
+                    let [behind, in_front] = parts.unwrap_or_else(|_| [cell.clone(), cell.clone()]);
+                    pending.push((children + 1, in_front, Some(position)));
+                    pending.push((children, behind, Some(position)));
+                    position
+                }
+                _ => outline.push_leaf(bounds, parent, self.ids_of(node)),
+            };
+            outline.nodes[position as usize].half_area = 0.5 * cell.area();
         }
         outline
     }

@@ -1,152 +1,245 @@
 //! Where a ray crosses a plane, and how far from it both sides must be visited (Ize
-//! 2008, section 4.1).
+//! 2008, section 4.1), in single precision.
+//!
+//! A hit at `t` that belongs to a side lies at most tau over the plane, as computed
+//! here. tau is the sum of
+//!
+//! ```text
+//! slack of the plane                what the build let reach over it
+//! rounding * (|d| t, by axis)       what the kernel rounds along far rays
+//! rounding of this very evaluation: of the start, a share of |n| |o| + |offset|;
+//!                                   of the slope and of `t`, in `rounding`
+//! ```
+//!
+//! Every operation that overflows ends in NaN, which constrains nothing: both sides
+//! are visited.
 
 use accel_core::PreparedRay;
 use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
-use accel_core::glam::{DVec3, Vec3};
-
-use crate::plane_tracking::PlaneTracking;
+use accel_core::glam::{DVec4, Vec3, Vec4};
+use accel_core::ray::{max_or_keep, min_or_keep};
 
 /// What tau is made of. Both parts are needed: tests show that hits are lost
 /// without either.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
     /// How much of the slack that the build used.
-    pub slack: f64,
-    /// How far a hit may be off, relative to how far the ray has come: the
-    /// kernel's rounding of vertices, of `t`, and the gate's clamp.
-    pub rounding: f64,
+    pub slack: f32,
+    /// How much of what is rounded, by the kernel and here.
+    pub rounding: f32,
 }
 
 impl Tolerance {
     pub(crate) const SAFE: Self = Self {
         slack: 1.0,
-        rounding: 16.0 * UNIT_ROUNDOFF as f64,
+        rounding: 1.0,
     };
 }
 
-/// A node put off, with the part of the ray inside.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Segment<T> {
-    pub node: u32,
-    pub near: f64,
-    pub far: f64,
-    pub planes: T,
-}
+/// How far a hit may be off, relative to how far the ray has come: what the kernel
+/// rounds of vertices and of `t`, and the gate's clamp.
+pub(crate) const HIT_ROUNDING: f32 = 16.0 * UNIT_ROUNDOFF;
 
-/// The ray, and its tolerance, in double precision.
-pub(crate) struct DoubleRay<'a> {
+/// The same with the rounding of slopes and crossings computed here.
+const ALONG_THE_RAY: f32 = HIT_ROUNDING + 12.0 * UNIT_ROUNDOFF;
+
+/// How far the signed distance of the origin may be off, relative to its terms.
+const AT_THE_ORIGIN: f32 = 8.0 * UNIT_ROUNDOFF;
+
+/// What tells where a ray crosses planes.
+pub(crate) struct Crossings<'a> {
     pub ray: &'a PreparedRay,
-    origin: DVec3,
-    direction: DVec3,
-    reciprocal: DVec3,
-    /// The rounding of a hit per unit of `t`.
-    rounding: DVec3,
-    slack: f64,
+    /// By axis. A fourth entry, never read, spares the check of two bits against
+    /// three.
+    axes: [AxisCrossing; 4],
+    /// With the plane's normal and offset, the signed distance of the origin.
+    origin: Vec4,
+    /// Likewise the slope.
+    direction: Vec4,
+    /// With magnitudes of normal and offset, how far the origin's distance may be
+    /// off, and per unit of `t`, a hit's.
+    rounding_at_origin: Vec4,
+    rounding_along: Vec4,
+    slack: f32,
 }
 
-/// A ray's signed distance from a plane: `start + t * slope`.
-pub(crate) struct Crossing {
-    start: f64,
-    slope: f64,
-    /// Where it is zero; of no meaning where the slope is.
-    at: f64,
-    tau: f64,
-    /// How much of `t` tau is worth.
-    reach: f64,
+/// What tells where the ray crosses planes orthogonal to one axis.
+#[derive(Clone, Copy)]
+struct AxisCrossing {
+    origin: f32,
+    /// What makes the slack reach backwards along the ray.
+    slack_factor: f32,
+    entry_reciprocal: f32,
+    exit_reciprocal: f32,
+    /// 0 if the ray is behind planes first, 1 if in front of them.
+    near_child: u32,
 }
 
-impl<'a> DoubleRay<'a> {
+/// The part of the ray inside a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval {
+    pub near: f32,
+    pub far: f32,
+}
+
+/// Which children of a node to visit, 0 behind the plane and 1 in front of it.
+pub(crate) enum Sides {
+    One(u32),
+    /// With the nearer one, and where each is left and entered.
+    Both {
+        nearer: u32,
+        exit: f32,
+        entry: f32,
+    },
+}
+
+/// Signed distances along the ray, turned to rise: `start + t * slope`.
+pub(crate) struct GeneralCrossing {
+    start: f32,
+    slope: f32,
+    tau: f32,
+    near_child: u32,
+}
+
+impl<'a> Crossings<'a> {
+    #[inline]
     pub(crate) fn new(ray: &'a PreparedRay, tolerance: Tolerance) -> Self {
-        let direction = ray.direction().as_dvec3();
+        let (origin, direction) = (ray.origin(), ray.direction());
+        let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
+        let at_the_origin = AT_THE_ORIGIN * tolerance.rounding;
+        let along = |axis: Axis| {
+            let reciprocal = axis.of(ray.reciprocal());
+            let is_negative = ray.is_negative(axis);
+            AxisCrossing {
+                origin: axis.of(origin),
+                slack_factor: if is_negative {
+                    -tolerance.slack
+                } else {
+                    tolerance.slack
+                },
+                entry_reciprocal: reciprocal * (1.0 - along_the_ray),
+                exit_reciprocal: reciprocal * (1.0 + along_the_ray),
+                near_child: u32::from(is_negative),
+            }
+        };
+        let [x, y, z] = Axis::ALL.map(along);
         Self {
             ray,
-            origin: ray.origin().as_dvec3(),
-            direction,
-            reciprocal: direction.recip(),
-            rounding: direction.abs() * tolerance.rounding,
+            axes: [x, y, z, z],
+            origin: origin.extend(-1.0),
+            direction: direction.extend(0.0),
+            rounding_at_origin: origin.abs().extend(1.0) * at_the_origin,
+            // At least the smallest normal number: below, its own rounding shows.
+            rounding_along: (direction.abs() * along_the_ray)
+                .max(Vec3::splat(f32::MIN_POSITIVE * tolerance.rounding))
+                .extend(0.0),
             slack: tolerance.slack,
         }
     }
 
-    /// The fast path of a kd-tree: one subtraction and two multiplications.
+    /// The fast path of a kd-tree. The slack is a little more than the build used,
+    /// for the rounding of the two sums.
     #[inline]
-    pub(crate) fn axis_aligned(&self, axis: Axis, position: f32, slack: f32, far: f64) -> Crossing {
-        let index = axis.index();
-        let start = self.origin[index] - f64::from(position);
-        let tau = f64::from(slack) * self.slack + self.rounding[index] * far;
-        let reciprocal = self.reciprocal[index];
-        Crossing {
-            start,
-            slope: self.direction[index],
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
+    pub(crate) fn axis_aligned(
+        &self,
+        axis: usize,
+        position: f32,
+        slack: f32,
+        interval: Interval,
+    ) -> Sides {
+        let crossing = &self.axes[axis];
+        let distance = position - crossing.origin;
+        let slack = slack * crossing.slack_factor;
+        let exit = (distance + slack) * crossing.exit_reciprocal;
+        if exit < interval.near {
+            return Sides::One(1 - crossing.near_child);
+        }
+        let entry = (distance - slack) * crossing.entry_reciprocal;
+        if entry > interval.far {
+            return Sides::One(crossing.near_child);
+        }
+        Sides::Both {
+            nearer: crossing.near_child,
+            exit,
+            entry,
         }
     }
 
+    /// Of a general plane, its offset behind its normal.
     #[inline]
-    pub(crate) fn general(&self, normal: Vec3, offset: f32, far: f64) -> Crossing {
-        let normal = normal.as_dvec3();
-        let start = normal.dot(self.origin) - f64::from(offset);
-        let slope = normal.dot(self.direction);
-        let tau = self.slack + normal.abs().dot(self.rounding) * far;
-        let reciprocal = 1.0 / slope;
-        Crossing {
-            start,
-            slope,
-            at: -start * reciprocal,
-            tau,
-            reach: tau * reciprocal.abs(),
+    pub(crate) fn general(&self, plane: Vec4, far: f32) -> GeneralCrossing {
+        let start = plane.dot(self.origin);
+        let slope = plane.dot(self.direction);
+        let rounding = self.rounding_at_origin + self.rounding_along * far;
+        // An overflow makes it NaN.
+        let slack = self.slack + 0.0 * (start + slope);
+        let is_falling = slope < 0.0;
+        GeneralCrossing {
+            start: if is_falling { -start } else { start },
+            slope: slope.abs(),
+            tau: slack + plane.abs().dot(rounding),
+            near_child: u32::from(is_falling),
         }
+    }
+
+    /// Where the ray crosses a general plane, exactly.
+    pub(crate) fn general_at(&self, plane: Vec4) -> f64 {
+        let along = |ray: Vec4| plane.as_dvec4().dot(ray.as_dvec4());
+        -along(self.origin) / along(self.direction)
+    }
+
+    /// Where the ray crosses an axis-aligned plane, exactly.
+    pub(crate) fn axis_aligned_at(&self, axis: usize, position: f32) -> f64 {
+        let [origin, direction]: [DVec4; 2] = [self.origin, self.direction].map(Vec4::as_dvec4);
+        (f64::from(position) - origin[axis]) / direction[axis]
     }
 }
 
-impl Crossing {
-    /// Signed distances of both ends.
-    #[inline]
-    fn ends<T>(&self, segment: &Segment<T>) -> [f64; 2] {
-        [segment.near, segment.far].map(|t| self.start + t * self.slope)
-    }
-
+impl GeneralCrossing {
     /// Whether the ray comes within tau of the plane.
     #[inline]
-    pub(crate) fn meets<T>(&self, segment: &Segment<T>) -> bool {
-        let [s0, s1] = self.ends(segment);
-        !(s0 > self.tau && s1 > self.tau || s0 < -self.tau && s1 < -self.tau)
+    pub(crate) fn meets(&self, interval: Interval) -> bool {
+        !(self.distance(interval.near) > self.tau || self.distance(interval.far) < -self.tau)
     }
 
-    /// The child that the ray enters first, and the other one if it enters both.
     #[inline]
-    pub(crate) fn divide<T: PlaneTracking>(
-        &self,
-        segment: &Segment<T>,
-        back: u32,
-    ) -> (Segment<T>, Option<Segment<T>>) {
-        let [s0, s1] = self.ends(segment);
-        let planes = segment.planes.on_one_side();
-        let of = |node| Segment {
-            node,
-            planes,
-            ..*segment
-        };
-        if s0 > self.tau && s1 > self.tau {
-            return (of(back + 1), None);
+    pub(crate) fn sides(&self, interval: Interval) -> Sides {
+        if self.distance(interval.near) > self.tau {
+            return Sides::One(1 - self.near_child);
         }
-        if s0 < -self.tau && s1 < -self.tau {
-            return (of(back), None);
+        if self.distance(interval.far) < -self.tau {
+            return Sides::One(self.near_child);
         }
-        let [mut nearer, mut farther] = if self.slope < 0.0 {
-            [of(back + 1), of(back)]
-        } else {
-            [of(back), of(back + 1)]
-        };
-        [nearer.planes, farther.planes] = segment.planes.divided(self.at);
-        // Where the whole segment is within tau, no division by a tiny slope.
-        if (s1 - s0).abs() > self.tau {
-            nearer.far = nearer.far.min(self.at + self.reach);
-            farther.near = farther.near.max(self.at - self.reach);
+        let reciprocal = 1.0 / self.slope;
+        Sides::Both {
+            nearer: self.near_child,
+            exit: (self.tau - self.start) * reciprocal,
+            entry: (-self.tau - self.start) * reciprocal,
         }
-        (nearer, Some(farther))
+    }
+
+    #[inline]
+    fn distance(&self, t: f32) -> f32 {
+        self.start + t * self.slope
+    }
+}
+
+impl Interval {
+    /// Up to where a node is left.
+    #[inline]
+    pub(crate) fn until(self, exit: f32) -> Self {
+        Self {
+            far: min_or_keep(self.far, exit),
+            ..self
+        }
+    }
+
+    /// From where a node is entered.
+    #[inline]
+    pub(crate) fn after(self, entry: f32) -> Self {
+        Self {
+            near: max_or_keep(self.near, entry),
+            ..self
+        }
     }
 }

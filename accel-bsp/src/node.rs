@@ -9,7 +9,7 @@
 //! the node that splits by it (section 4.3).
 
 use accel_core::geometry::Axis;
-use accel_core::glam::Vec3;
+use accel_core::glam::{Vec3, Vec4};
 
 use crate::split_plane::SplitPlane;
 
@@ -145,6 +145,42 @@ impl Node {
 
     pub(crate) fn is_finite(&self) -> bool {
         self.offset.is_finite() && self.normal.iter().all(|x| x.is_finite())
+    }
+
+    #[inline]
+    pub(crate) fn is_leaf(&self) -> bool {
+        self.word & IS_LEAF != 0
+    }
+
+    /// Whether the plane of an inner node is not orthogonal to an axis.
+    #[inline]
+    pub(crate) fn is_general(&self) -> bool {
+        self.word & GENERAL == GENERAL
+    }
+
+    /// The number of an axis-aligned node's axis: at most 3, so that tables of four
+    /// need no check.
+    #[inline]
+    pub(crate) fn axis_index(&self) -> usize {
+        (self.word & GENERAL) as usize
+    }
+
+    /// Of an axis-aligned node.
+    #[inline]
+    pub(crate) fn position_and_slack(&self) -> (f32, f32) {
+        (self.offset, self.normal[0])
+    }
+
+    /// The normal and the offset of a general node or a planar leaf.
+    #[inline]
+    pub(crate) fn plane_words(&self) -> Vec4 {
+        Vec3::from_array(self.normal).extend(self.offset)
+    }
+
+    /// The first child of an inner node, or the number of a leaf.
+    #[inline]
+    pub(crate) fn index(&self) -> u32 {
+        self.word >> INDEX_SHIFT
     }
 
     /// The first of the two children of an inner node.

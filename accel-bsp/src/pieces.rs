@@ -104,6 +104,10 @@ impl Pieces {
         self.pads[piece]
     }
 
+    pub(crate) fn largest_pad(&self) -> f64 {
+        self.pads.iter().copied().fold(0.0, f64::max)
+    }
+
     #[inline]
     pub(crate) fn corners(&self, piece: usize) -> &[DVec3] {
         &self.corners[self.starts[piece] as usize..self.starts[piece + 1] as usize]

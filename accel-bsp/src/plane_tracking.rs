@@ -9,8 +9,9 @@ pub(crate) trait PlaneTracking: Copy {
     /// In a child, if the ray passes the plane on one side.
     fn on_one_side(self) -> Self;
 
-    /// In the nearer child and the farther one, if the plane is at this `t`.
-    fn divided(self, at: f64) -> [Self; 2];
+    /// In the nearer child and the farther one, if the plane is at the `t` that `at`
+    /// tells.
+    fn divided(self, at: impl FnOnce() -> f64) -> [Self; 2];
 
     /// What a leaf answers whose primitive covers the face that the node at
     /// `depth` has cut.
@@ -44,7 +45,7 @@ impl PlaneTracking for Untracked {
     }
 
     #[inline]
-    fn divided(self, _: f64) -> [Self; 2] {
+    fn divided(self, _: impl FnOnce() -> f64) -> [Self; 2] {
         [self; 2]
     }
 

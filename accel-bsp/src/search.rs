@@ -19,6 +19,10 @@ use crate::polytope::Polytope;
 use crate::sphere_hierarchy::SphereHierarchy;
 use crate::split_plane::SplitPlane;
 
+/// The most that the slack of an axis-aligned plane follows large primitives,
+/// relative to the extent of what the node holds.
+const LARGEST_SLACK: f64 = 1.0 / 4096.0;
+
 /// A split, and what it costs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
@@ -83,10 +87,14 @@ impl<'a, P: Polygonal> Search<'a, P> {
     /// The best splits, and how many candidates are left to others.
     pub(crate) fn run(mut self) -> (Splits, usize) {
         let [low, high] = self.pieces.bounds();
-        let local = self.builder.epsilon * (high - low).max_element();
+        let extent = (high - low).max_element();
+        let local = self.builder.epsilon * extent;
         let placement = RELATIVE_PLACEMENT * low.abs().max(high.abs()).max_element();
+        // A piece ends at a plane only if the slack covers its pad, and that of a large
+        // primitive exceeds what suits a small node.
+        let touching = (1.25 * self.pieces.largest_pad()).min(LARGEST_SLACK * extent);
         for axis in Axis::ALL {
-            self.sweep(axis, local.max(placement));
+            self.sweep(axis, local.max(placement).max(touching));
         }
         let candidates = self.builder.candidate_planes;
         if candidates
@@ -100,12 +108,8 @@ impl<'a, P: Polygonal> Search<'a, P> {
 
     /// What part of the cost of a leaf the best plane so far saves.
     fn gain(&self) -> f64 {
-        let leaf = self
-            .builder
-            .costs
-            .heuristic(0.0)
-            .leaf_cost(self.pieces.len());
-        self.best.fixed.map_or(0.0, |split| 1.0 - split.cost / leaf)
+        let best = self.best.linear;
+        best.map_or(0.0, |split| 1.0 - split.cost / self.leaf_cost())
     }
 
     /// Weighs the planes of the primitives.
@@ -125,8 +129,9 @@ impl<'a, P: Polygonal> Search<'a, P> {
             if !self.takes_candidate() {
                 return;
             }
-            let counts = hierarchy.count(&plane);
-            self.weigh(&plane, counts);
+            if let Some(counts) = hierarchy.count(&plane, |counts| self.may_pay(&plane, counts)) {
+                self.weigh(&plane, counts);
+            }
         }
     }
 
@@ -166,26 +171,33 @@ impl<'a, P: Polygonal> Search<'a, P> {
         left.is_some()
     }
 
+    /// Whether a plane with at least these counts on its sides can be the best, by
+    /// the counts alone: both parts have together at least the area of the whole.
+    fn may_pay(&self, plane: &SplitPlane, counts: &Counts) -> bool {
+        let smaller_side = counts.straddling + counts.behind.min(counts.in_front);
+        let least = self.builder.costs.intersection * smaller_side as f64;
+        counts.straddling <= self.allowance.duplicates && self.may_improve(plane, least)
+    }
+
+    /// What visiting the node costs, linear and fixed.
+    fn visit_costs(&self, plane: &SplitPlane) -> [f64; 2] {
+        let costs = &self.builder.costs;
+        match plane.axis() {
+            Some(_) => [costs.axis_aligned; 2],
+            None => [costs.linear_general(self.pieces.len()), costs.general],
+        }
+    }
+
     /// Keeps the plane if it is the best so far, planar pieces going where it is
     /// cheaper.
     fn weigh(&mut self, plane: &SplitPlane, counts: Counts) {
-        if counts.straddling > self.allowance.duplicates {
+        if !self.may_pay(plane, &counts) {
             return;
         }
         let costs = &self.builder.costs;
-        let is_axis_aligned = plane.axis().is_some();
-        let (linear, fixed) = if is_axis_aligned {
-            (costs.axis_aligned, costs.axis_aligned)
-        } else {
-            (costs.linear_general(self.pieces.len()), costs.general)
-        };
+        let [linear, fixed] = self.visit_costs(plane);
         let behind = counts.behind + counts.straddling;
         let in_front = counts.in_front + counts.straddling;
-        // The parts have together at least the area of the whole.
-        let least = costs.intersection * behind.min(in_front) as f64;
-        if !self.may_improve(linear + least, fixed + least, is_axis_aligned) {
-            return;
-        }
         let Some(areas) = self.split_areas(plane, counts) else {
             return;
         };
@@ -207,7 +219,7 @@ impl<'a, P: Polygonal> Search<'a, P> {
             };
             keep_cheaper(&mut self.best.linear, split(linear + children));
             keep_cheaper(&mut self.best.fixed, split(fixed + children));
-            if is_axis_aligned {
+            if plane.axis().is_some() {
                 keep_cheaper(&mut self.best.axis_aligned, split(fixed + children));
             }
         }
@@ -241,11 +253,24 @@ impl<'a, P: Polygonal> Search<'a, P> {
         })
     }
 
-    fn may_improve(&self, linear: f64, fixed: f64, is_axis_aligned: bool) -> bool {
-        let improves = |best: &Option<Split>, cost: f64| best.is_none_or(|best| cost < best.cost);
+    /// Whether a plane whose children cost at least so much can be the best. The
+    /// fixed cost is of interest only while the linear one finds nothing.
+    fn may_improve(&self, plane: &SplitPlane, children: f64) -> bool {
+        let improves =
+            |best: &Option<Split>, visit: f64| best.is_none_or(|best| visit + children < best.cost);
+        let [linear, fixed] = self.visit_costs(plane);
+        let needs_fixed = self
+            .best
+            .linear
+            .is_none_or(|best| best.cost >= self.leaf_cost());
         improves(&self.best.linear, linear)
-            || improves(&self.best.fixed, fixed)
-            || (is_axis_aligned && improves(&self.best.axis_aligned, fixed))
+            || (needs_fixed && improves(&self.best.fixed, fixed))
+            || (plane.axis().is_some() && improves(&self.best.axis_aligned, fixed))
+    }
+
+    fn leaf_cost(&self) -> f64 {
+        let heuristic = self.builder.costs.heuristic(0.0);
+        heuristic.leaf_cost(self.pieces.len())
     }
 }
 

@@ -93,8 +93,13 @@ impl<'a> SphereHierarchy<'a> {
         }
     }
 
-    /// How many pieces lie where.
-    pub(crate) fn count(&self, plane: &SplitPlane) -> Counts {
+    /// How many pieces lie where; `None` as soon as `may_pay` says of the counts so
+    /// far, which only grow, that the plane does not.
+    pub(crate) fn count(
+        &self,
+        plane: &SplitPlane,
+        may_pay: impl Fn(&Counts) -> bool,
+    ) -> Option<Counts> {
         let mut counts = Counts::default();
         let length = plane.normal().length();
         let mut position = 0;
@@ -112,10 +117,13 @@ impl<'a> SphereHierarchy<'a> {
                 for &piece in &self.order[range] {
                     counts.add(self.pieces.side(piece as usize, plane), 1);
                 }
+                if !may_pay(&counts) {
+                    return None;
+                }
             }
             position += 1;
         }
-        counts
+        Some(counts)
     }
 }
 

@@ -8,22 +8,38 @@
 //! otherwise both, the nearer first, each as far as tau over the crossing
 //! ```
 //!
-//! Evaluated in double precision: tau then covers what the kernel rounds, and
-//! the traversal's own rounding vanishes beside it.
+//! Of an axis-aligned plane, the same in terms of `t`: where the ray leaves the one
+//! side and enters the other.
 
 use std::ops::ControlFlow;
 
 use accel_core::layout::LeafStorage;
 use accel_core::query::{Hit, Query};
-use accel_core::ray::max_or_keep;
+use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics};
 use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
-use crate::crossing::{DoubleRay, Segment, Tolerance};
-use crate::node::{NODE_BYTES, NodeKind};
+use crate::crossing::{Crossings, Interval, Sides, Tolerance};
+use crate::node::{NODE_BYTES, Node, NodeKind};
 use crate::plane_tracking::{LeafAnswer, PlaneTracking};
+
+/// A node, and the part of the ray inside.
+#[derive(Clone, Copy)]
+struct Segment<T> {
+    node: u32,
+    interval: Interval,
+    planes: T,
+}
+
+/// A node put off, and where the ray leaves it.
+#[derive(Clone, Copy)]
+struct PutOff<T> {
+    node: u32,
+    far: f32,
+    planes: T,
+}
 
 pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
@@ -35,17 +51,15 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let near = max_or_keep(ray.t_min(), whole.near);
-    if !(near <= whole.far && near <= query.t_max()) {
-        return;
-    }
     let part = RayPart {
         node: 0,
-        near,
-        far: whole.far,
+        near: max_or_keep(ray.t_min(), whole.near),
+        far: min_or_keep(query.t_max(), whole.far),
     };
-    let ray_in_double = DoubleRay::new(ray, tolerance);
-    let _ = traverse_below::<P, T, Q, S>(tree, part, &ray_in_double, query, statistics);
+    if part.near <= part.far {
+        let crossings = Crossings::new(ray, tolerance);
+        let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
+    }
 }
 
 /// Traverses the part of the tree below a node; breaks when the query does.
@@ -53,56 +67,84 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
 pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
     part: RayPart,
-    ray_in_double: &DoubleRay<'_>,
+    crossings: &Crossings<'_>,
     query: &mut Q,
     statistics: &mut S,
 ) -> ControlFlow<()> {
-    let (near, far) = (f64::from(part.near), f64::from(part.far.min(f32::MAX)));
-    let mut stack = TraversalStack::new();
+    let interval = Interval {
+        near: part.near,
+        far: part.far.min(f32::MAX),
+    };
     let mut segment = Segment {
         node: part.node,
-        near,
-        far,
-        planes: T::of_ray(near, far),
+        interval,
+        planes: T::of_ray(interval.near.into(), interval.far.into()),
     };
+    let mut stack: TraversalStack<PutOff<T>> = TraversalStack::new();
     loop {
-        let (crossing, children, kind) = match tree.nodes[segment.node as usize].kind() {
-            NodeKind::AxisAligned {
-                axis,
-                position,
-                slack,
-                children,
-            } => {
-                let crossing = ray_in_double.axis_aligned(axis, position, slack, segment.far);
-                (crossing, children, StatisticsKind::Inner)
-            }
-            NodeKind::General {
-                normal,
-                offset,
-                children,
-            } => {
-                let crossing = ray_in_double.general(normal, offset, segment.far);
-                (crossing, children, StatisticsKind::General)
-            }
-            leaf => {
-                statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
-                test_leaf(tree, leaf, &segment, ray_in_double, query, statistics)?;
-                match stack.pop_within(query.t_max()) {
-                    Some(next) => segment = next,
-                    None => return ControlFlow::Continue(()),
-                }
-                continue;
-            }
-        };
-        statistics.visit_node(kind, NODE_BYTES as u32);
-        statistics.test_planes(1);
-        let (nearer, farther) = crossing.divide(&segment, children);
-        if let Some(farther) = farther {
-            // Rounding to single precision is monotone, and `t` is single, so the
-            // entry rounds to at most the `t` of any hit behind it.
-            stack.push(farther, farther.near as f32);
+        let node = &tree.nodes[segment.node as usize];
+        if node.is_leaf() {
+            statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
+            test_leaf(tree, node, &segment, crossings, query, statistics)?;
+            let Some(next) = stack.pop_entry_within(query.t_max()) else {
+                return ControlFlow::Continue(());
+            };
+            segment = Segment {
+                node: next.node.node,
+                interval: Interval {
+                    near: next.near,
+                    far: min_or_keep(next.node.far, query.t_max()),
+                },
+                planes: next.node.planes,
+            };
+            continue;
         }
-        segment = nearer;
+        let interval = segment.interval;
+        let sides = if node.is_general() {
+            statistics.visit_node(StatisticsKind::General, NODE_BYTES as u32);
+            crossings
+                .general(node.plane_words(), interval.far)
+                .sides(interval)
+        } else {
+            statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
+            let (position, slack) = node.position_and_slack();
+            crossings.axis_aligned(node.axis_index(), position, slack, interval)
+        };
+        statistics.test_planes(1);
+        let children = node.index();
+        match sides {
+            Sides::One(child) => {
+                segment.node = children + child;
+                segment.planes = segment.planes.on_one_side();
+            }
+            Sides::Both {
+                nearer,
+                exit,
+                entry,
+            } => {
+                let [planes, put_off] = segment.planes.divided(|| exact_crossing(node, crossings));
+                let put_off = PutOff {
+                    node: children + 1 - nearer,
+                    far: interval.far,
+                    planes: put_off,
+                };
+                stack.push(put_off, interval.after(entry).near);
+                segment = Segment {
+                    node: children + nearer,
+                    interval: interval.until(exit),
+                    planes,
+                };
+            }
+        }
+    }
+}
+
+/// Where the ray crosses the plane of an inner node, for those who remember it.
+fn exact_crossing(node: &Node, crossings: &Crossings<'_>) -> f64 {
+    if node.is_general() {
+        crossings.general_at(node.plane_words())
+    } else {
+        crossings.axis_aligned_at(node.axis_index(), node.position_and_slack().0)
     }
 }
 
@@ -111,23 +153,19 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
 #[inline]
 fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     tree: &BspTree<P>,
-    leaf: NodeKind,
+    node: &Node,
     segment: &Segment<T>,
-    ray_in_double: &DoubleRay<'_>,
+    crossings: &Crossings<'_>,
     query: &mut Q,
     statistics: &mut S,
 ) -> ControlFlow<()> {
-    let ray = ray_in_double.ray;
-    let leaf = match leaf {
+    let leaf = match node.kind() {
         NodeKind::Leaf(leaf) => leaf,
-        NodeKind::PlanarLeaf {
-            normal,
-            offset,
-            leaf,
-        } => {
+        NodeKind::PlanarLeaf { leaf, .. } => {
             statistics.test_planes(1);
-            let crossing = ray_in_double.general(normal, offset, segment.far);
-            if !crossing.meets(segment) {
+            let interval = segment.interval;
+            let crossing = crossings.general(node.plane_words(), interval.far);
+            if !crossing.meets(interval) {
                 return ControlFlow::Continue(());
             }
             leaf
@@ -136,7 +174,7 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
             LeafAnswer::AskKernel => leaf,
             LeafAnswer::Hit(t) => {
                 statistics.test_planes(1);
-                return offer_unconfirmed(tree, leaf, t, ray, query);
+                return offer_unconfirmed(tree, leaf, t, crossings.ray, query);
             }
             LeafAnswer::Miss => {
                 statistics.test_planes(1);
@@ -146,7 +184,7 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
         _ => return ControlFlow::Continue(()),
     };
     let leaves = tree.stored.leaves();
-    leaves.intersect_leaf(leaf, ray, query, statistics)
+    leaves.intersect_leaf(leaf, crossings.ray, query, statistics)
 }
 
 /// Offers a hit of a leaf's one primitive that the traversal has found.
@@ -177,7 +215,7 @@ mod tests {
     use crate::{BspBuilder, InvalidPrimitives};
     use accel_core::testing::agreement::oracle;
     use accel_core::testing::{families, rays};
-    use accel_core::{AccelerationStructure, ClosestHit, Ray, RaySegment, Triangle};
+    use accel_core::{AccelerationStructure, ClosestHit, RaySegment, Triangle};
 
     /// How many closest hits are answered differently from brute force, with
     /// this tolerance.
@@ -211,14 +249,7 @@ mod tests {
         ];
         let count = |name| {
             let scene = families::find(name).expect(name).scene(3, 400);
-            let near = rays::mixed(&scene, 5, 2000);
-            let away = |ray: &RaySegment, distance: f32| {
-                let (origin, direction) = (ray.origin(), ray.direction());
-                RaySegment::new(origin - direction * distance, direction)
-            };
-            let far = near.iter().map(|ray| away(ray, 1e3));
-            let very_far = near.iter().map(|ray| away(ray, 1e5));
-            let rays: Vec<RaySegment> = near.iter().copied().chain(far).chain(very_far).collect();
+            let rays = rays::mixed_near_and_far(&scene, 5, 2000);
             disagreements(&scene, &rays, tolerance)
         };
         names.into_iter().map(count).sum()

@@ -7,13 +7,11 @@
 //! leaf whose plane stands at that depth: the hit is that end
 //! ```
 
-use accel_core::layout::LeafStorage;
 use accel_core::statistics::TraversalStatistics;
-use accel_core::{AccelerationStructure, ClosestHit, Polygonal, PreparedRay, Ray};
+use accel_core::{ClosestHit, Polygonal, PreparedRay, Ray};
 
 use crate::BspTree;
 use crate::crossing::Tolerance;
-use crate::node::Node;
 use crate::plane_tracking::{LeafAnswer, PlaneTracking};
 use crate::traversal::traverse;
 
@@ -62,12 +60,6 @@ impl<P: Polygonal> BspTree<P> {
             id: hit.id,
         })
     }
-
-    /// The ids of a leaf; none of an inner node.
-    pub(crate) fn ids_of(&self, node: Node) -> impl Iterator<Item = u32> + '_ {
-        let leaf = node.leaf_number().into_iter();
-        leaf.flat_map(|leaf| self.stored().leaves().leaf_ids(leaf))
-    }
 }
 
 /// The planes that a part of the ray lies between.
@@ -107,7 +99,8 @@ impl PlaneTracking for BoundingPlanes {
 
     /// One of the two may be left with its ends in the wrong order: it is visited
     /// for the sake of the tolerance alone.
-    fn divided(self, at: f64) -> [Self; 2] {
+    fn divided(self, at: impl FnOnce() -> f64) -> [Self; 2] {
+        let at = at();
         let plane = End {
             at,
             depth: Some(self.depth),

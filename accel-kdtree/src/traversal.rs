@@ -120,7 +120,7 @@ mod tests {
     use accel_core::geometry::rounding::gamma;
     use accel_core::testing::agreement::oracle;
     use accel_core::testing::{families, rays};
-    use accel_core::{AccelerationStructure, ClosestHit, Ray, RaySegment, Triangle};
+    use accel_core::{AccelerationStructure, ClosestHit, RaySegment, Triangle};
 
     /// Takes a part of the tolerance away.
     type Without = fn(&mut Tolerance);
@@ -157,14 +157,7 @@ mod tests {
         ];
         let count = |name| {
             let scene = families::find(name).expect(name).scene(3, 400);
-            let near = rays::mixed(&scene, 5, 4000);
-            let away = |ray: &RaySegment, distance: f32| {
-                let (origin, direction) = (ray.origin(), ray.direction());
-                RaySegment::new(origin - direction * distance, direction)
-            };
-            let far = near.iter().map(|ray| away(ray, 1e3));
-            let very_far = near.iter().map(|ray| away(ray, 1e5));
-            let rays: Vec<RaySegment> = near.iter().copied().chain(far).chain(very_far).collect();
+            let rays = rays::mixed_near_and_far(&scene, 5, 4000);
             disagreements(&scene, &rays, without)
         };
         names.into_iter().map(count).sum()

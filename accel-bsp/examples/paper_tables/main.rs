@@ -9,8 +9,8 @@
 //! A scene is an OBJ file of polygons, or the name of a family of the test scenes.
 //! Before the scenes, `--epsilon` sweeps the epsilon of the build and compares with
 //! brute force, `--costs` sweeps the cost of a test (section 5.1), `--planes` tries
-//! the candidate planes of section 6.1, and `--exhaustive N` compares with the
-//! exhaustive search on the first N triangles.
+//! the candidate planes of section 6.1, `--growth` tells how build times grow, and
+//! `--exhaustive N` compares with the exhaustive search on the first N triangles.
 #![allow(clippy::print_stdout)]
 
 mod rays;
@@ -34,6 +34,7 @@ fn main() -> Result<(), Failure> {
             "--epsilon" => options.epsilon = true,
             "--costs" => options.costs = true,
             "--planes" => options.planes = true,
+            "--growth" => options.growth = true,
             "--exhaustive" => {
                 options.exhaustive = arguments.next().ok_or("--exhaustive N")?.parse()?;
             }

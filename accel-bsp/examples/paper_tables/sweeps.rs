@@ -14,6 +14,7 @@ pub(crate) struct Options {
     pub epsilon: bool,
     pub costs: bool,
     pub planes: bool,
+    pub growth: bool,
     pub exhaustive: usize,
 }
 
@@ -32,6 +33,9 @@ pub(crate) fn run(options: &Options, triangles: &[Triangle]) -> Result<(), Failu
     }
     if options.planes {
         try_planes(triangles)?;
+    }
+    if options.growth {
+        measure_growth(triangles)?;
     }
     if options.exhaustive > 0 {
         compare_with_exhaustive(&triangles[..options.exhaustive.min(triangles.len())])?;
@@ -114,6 +118,28 @@ fn try_planes(triangles: &[Triangle]) -> Result<(), Failure> {
             "  {candidate_planes:?}\n    {}\n    {}",
             built.describe(),
             per_ray(&count(&built.tree, &rays, false).0),
+        );
+    }
+    Ok(())
+}
+
+/// Build times of the first triangles of a scene, ever more of them, and the exponent
+/// from one number to the next.
+fn measure_growth(triangles: &[Triangle]) -> Result<(), Failure> {
+    let mut smaller: Option<(f64, f64)> = None;
+    for count in [1_000, 5_000, 20_000, 80_000, 200_000] {
+        let Some(part) = triangles.get(..count) else {
+            break;
+        };
+        let built = Built::new(&BspBuilder::default(), part)?;
+        let count = count as f64;
+        let exponent = smaller.map_or(f64::NAN, |(fewer, seconds)| {
+            (built.seconds / seconds).ln() / (count / fewer).ln()
+        });
+        smaller = Some((count, built.seconds));
+        println!(
+            "  first {count}: exponent {exponent:.3}, {}",
+            built.describe()
         );
     }
     Ok(())

@@ -15,7 +15,7 @@ use accel_core::structure::{CellTree, CellVisit, Division, RayPart};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
-use crate::crossing::{DoubleRay, Tolerance};
+use crate::crossing::{Crossings, Tolerance};
 use crate::node::{NODE_BYTES, NodeKind};
 use crate::plane_tracking::Untracked;
 use crate::traversal::traverse_below;
@@ -107,7 +107,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
         query: &mut Q,
         statistics: &mut S,
     ) -> ControlFlow<()> {
-        let ray_in_double = DoubleRay::new(ray, Tolerance::SAFE);
-        traverse_below::<P, Untracked, Q, S>(self, part, &ray_in_double, query, statistics)
+        let crossings = Crossings::new(ray, Tolerance::SAFE);
+        traverse_below::<P, Untracked, Q, S>(self, part, &crossings, query, statistics)
     }
 }

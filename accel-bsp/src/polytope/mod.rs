@@ -95,8 +95,7 @@ impl Polytope {
     }
 
     /// The smallest box around the cell.
-    #[cfg(test)]
-    fn bounds(&self) -> [DVec3; 2] {
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
         crate::pieces::bounds_of(&self.corners)
     }
 

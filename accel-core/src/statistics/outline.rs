@@ -13,6 +13,9 @@ pub struct TreeOutline {
     pub nodes: Vec<OutlineNode>,
     /// The primitive ids of all leaves; leaves hold ranges of it.
     pub ids: Vec<u32>,
+    /// Whether nodes are cells that boxes merely enclose, siblings sharing nothing
+    /// but their faces: then nothing overlaps, whatever the boxes do.
+    pub divides_space: bool,
 }
 
 /// A node of a [`TreeOutline`].
@@ -20,8 +23,10 @@ pub struct TreeOutline {
 pub struct OutlineNode {
     /// What it is.
     pub kind: NodeKind,
-    /// The box or cell that a ray must meet to visit it.
+    /// The box that a ray must meet to visit it, or one around its cell.
     pub bounds: Aabb,
+    /// Half of its surface area, which may be less than that of its bounds.
+    pub half_area: f64,
     /// Position of the parent in the list; `None` for the root.
     pub parent: Option<u32>,
     /// Of a leaf, the range of its references in [`TreeOutline::ids`]; empty
@@ -59,6 +64,7 @@ impl TreeOutline {
         self.nodes.push(OutlineNode {
             kind,
             bounds,
+            half_area: bounds.half_area(),
             parent,
             references,
         });

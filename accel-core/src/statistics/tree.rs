@@ -115,13 +115,13 @@ fn sah_cost(outline: &TreeOutline, heuristic: &SurfaceAreaHeuristic) -> f64 {
     let Some(root) = outline.nodes.first() else {
         return 0.0;
     };
-    let root_area = root.bounds.half_area();
+    let root_area = root.half_area;
     let costs = outline.nodes.iter().map(|node| {
         let visit = match node.kind {
             NodeKind::Leaf => heuristic.leaf_cost(node.references.len()),
             _ => heuristic.traversal_cost,
         };
-        visit * SurfaceAreaHeuristic::probability(node.bounds.half_area(), root_area)
+        visit * SurfaceAreaHeuristic::probability(node.half_area, root_area)
     });
     costs.sum()
 }
@@ -130,6 +130,9 @@ fn sibling_overlap(outline: &TreeOutline) -> f64 {
     let Some(root) = outline.nodes.first() else {
         return 0.0;
     };
+    if outline.divides_space {
+        return 0.0;
+    }
     let mut overlap = 0.0;
     for siblings in outline.children() {
         for (position, &left) in siblings.iter().enumerate() {
@@ -192,6 +195,21 @@ mod tests {
         approx::assert_relative_eq!(statistics.sah_cost, expected);
         // The common part is 0.25 wide: 0.25 + 1 + 0.25.
         approx::assert_relative_eq!(statistics.overlap, 0.5);
+    }
+
+    #[test]
+    fn cells_count_by_their_own_area_and_do_not_overlap() {
+        let heuristic = SurfaceAreaHeuristic {
+            traversal_cost: 1.0,
+            intersection_cost: 2.0,
+        };
+        let mut outline = two_leaves();
+        outline.divides_space = true;
+        outline.nodes[1].half_area = 1.5;
+        let statistics = TreeStatistics::of(&outline, &heuristic);
+        let expected = 1.0 + 1.5 / 3.0 * 4.0 + 2.0 / 3.0 * 6.0;
+        approx::assert_relative_eq!(statistics.sah_cost, expected);
+        assert_eq!(statistics.overlap, 0.0);
     }
 
     #[test]

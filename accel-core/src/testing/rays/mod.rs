@@ -17,7 +17,7 @@ use rand_pcg::Pcg64Mcg;
 
 pub use exhaustive::at_every_vertex;
 
-use crate::{RaySegment, Triangle};
+use crate::{Ray, RaySegment, Triangle};
 use targets::Targets;
 
 /// What a set of rays aims at.
@@ -132,6 +132,20 @@ pub fn mixed(triangles: &[Triangle], seed: u64, count: usize) -> Vec<RaySegment>
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let kinds = RayKind::FINITE.iter().cycle().take(count);
     kinds.map(|kind| kind.draw(&targets, &mut rng)).collect()
+}
+
+/// `count` rays of all finite kinds, and each again from a thousand and from a hundred
+/// thousand times its direction further away, where the rounding of hits grows.
+pub fn mixed_near_and_far(triangles: &[Triangle], seed: u64, count: usize) -> Vec<RaySegment> {
+    let near = mixed(triangles, seed, count);
+    let from_afar = |distance: f32| {
+        near.iter().map(move |ray| {
+            let (origin, direction) = (ray.origin(), ray.direction());
+            RaySegment::new(origin - direction * distance, direction)
+        })
+    };
+    let far = from_afar(1e3).chain(from_afar(1e5));
+    near.iter().copied().chain(far).collect()
 }
 
 #[cfg(test)]
