@@ -79,7 +79,7 @@ impl Default for BspBuilder {
             single_leaves: SingleLeaves::default(),
             epsilon: 1.0 / (1 << 20) as f64,
             candidate_planes: CandidatePlanes::default(),
-            sampled_primitives: Some(64),
+            sampled_primitives: Some(256),
             max_duplication: 64.0,
             max_nodes: None,
             max_candidates: 1 << 14,

@@ -36,10 +36,12 @@ impl Tolerance {
     };
 }
 
-/// How far a hit may be off, relative to how far the ray has come: 16 units for the
-/// kernel's rounding of vertices, of `t`, and the gate's clamp; 12 for slopes and
-/// crossings computed here.
-const ALONG_THE_RAY: f32 = 28.0 * UNIT_ROUNDOFF;
+/// How far a hit may be off, relative to how far the ray has come: what the kernel
+/// rounds of vertices and of `t`, and the gate's clamp.
+pub(crate) const HIT_ROUNDING: f32 = 16.0 * UNIT_ROUNDOFF;
+
+/// The same with the rounding of slopes and crossings computed here.
+const ALONG_THE_RAY: f32 = HIT_ROUNDING + 12.0 * UNIT_ROUNDOFF;
 
 /// How far the signed distance of the origin may be off, relative to its terms.
 const AT_THE_ORIGIN: f32 = 8.0 * UNIT_ROUNDOFF;
@@ -234,7 +236,7 @@ impl Interval {
 
     /// From where a node is entered.
     #[inline]
-    pub(crate) fn from(self, entry: f32) -> Self {
+    pub(crate) fn after(self, entry: f32) -> Self {
         Self {
             near: max_or_keep(self.near, entry),
             ..self

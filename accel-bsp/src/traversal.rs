@@ -51,13 +51,12 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let near = max_or_keep(ray.t_min(), whole.near);
-    if near <= whole.far && near <= query.t_max() {
-        let part = RayPart {
-            node: 0,
-            near,
-            far: whole.far,
-        };
+    let part = RayPart {
+        node: 0,
+        near: max_or_keep(ray.t_min(), whole.near),
+        far: min_or_keep(query.t_max(), whole.far),
+    };
+    if part.near <= part.far {
         let crossings = Crossings::new(ray, tolerance);
         let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
     }
@@ -74,12 +73,12 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
 ) -> ControlFlow<()> {
     let interval = Interval {
         near: part.near,
-        far: min_or_keep(query.t_max(), part.far.min(f32::MAX)),
+        far: part.far.min(f32::MAX),
     };
     let mut segment = Segment {
         node: part.node,
-        planes: T::of_ray(interval.near.into(), interval.far.into()),
         interval,
+        planes: T::of_ray(interval.near.into(), interval.far.into()),
     };
     let mut stack: TraversalStack<PutOff<T>> = TraversalStack::new();
     loop {
@@ -129,7 +128,7 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
                     far: interval.far,
                     planes: put_off,
                 };
-                stack.push(put_off, interval.from(entry).near);
+                stack.push(put_off, interval.after(entry).near);
                 segment = Segment {
                     node: children + nearer,
                     interval: interval.until(exit),

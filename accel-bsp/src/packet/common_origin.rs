@@ -1,8 +1,8 @@
 //! Where the rays of one origin cross a plane, in single precision.
 //!
 //! The distance of the origin is one number for the whole vector, and taken in
-//! double precision: the cancellation that makes single rays use it throughout is
-//! there. With `a` the distance of the origin, `b` the speed at which a ray comes
+//! double precision: there is the cancellation for which single rays need a larger
+//! tau. With `a` the distance of the origin, `b` the speed at which a ray comes
 //! nearer, and tau as in [`crate::crossing`],
 //!
 //! ```text
@@ -17,7 +17,7 @@
 //! case of their own.
 //!
 //! `r` is 32 units of rounding of the speed's terms. A hit is off by up to 16
-//! (see [`crate::crossing`]), `b` by 3, and the quotients by
+//! ([`HIT_ROUNDING`](crate::crossing::HIT_ROUNDING)), `b` by 3, and the quotients by
 //! 4 of themselves, which within the cell is no more than 8 of `b t`. Where a number
 //! overflows, what follows is infinite on the safe side, or NaN, which constrains
 //! nothing.
@@ -161,6 +161,7 @@ impl<L: Lanes> CrossingLanes<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::crossing::HIT_ROUNDING;
     use accel_core::simd::F32x4;
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
@@ -209,8 +210,7 @@ mod tests {
         let (normal, direction) = (case.normal.as_dvec3(), direction.as_dvec3());
         let start = normal.dot(case.origin.as_dvec3()) - f64::from(case.offset);
         let distance = (start + f64::from(t) * normal.dot(direction)) * start.signum();
-        let off =
-            16.0 * f64::from(UNIT_ROUNDOFF) * normal.abs().dot(direction.abs()) * f64::from(t);
+        let off = f64::from(HIT_ROUNDING * t) * normal.abs().dot(direction.abs());
         [distance < -(1.0 + off), distance > 1.0 + off]
     }
 
