@@ -2,6 +2,7 @@
 //! the answers of brute force.
 
 pub mod agreement;
+mod bench_arguments;
 pub mod closed;
 pub mod damage;
 mod edge;
@@ -14,3 +15,5 @@ pub mod rays;
 #[cfg(feature = "proptest")]
 pub mod strategy;
 pub mod stress;
+
+pub use bench_arguments::bench_arguments;

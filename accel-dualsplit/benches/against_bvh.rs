@@ -2,7 +2,7 @@
 //! visits and time per ray, on meshes given as OBJ files of triangles.
 //!
 //! ```sh
-//! cargo run --release -p accel-dualsplit --example against_bvh -- bunny.obj
+//! cargo bench -p accel-dualsplit --bench against_bvh -- bunny.obj
 //! ```
 //!
 //! Rays are paths with up to five diffuse bounces (Lin 2019, section 5), recorded
@@ -16,7 +16,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use accel_bvh::CompactBvh;
-use accel_core::testing::mesh_file;
+use accel_core::testing::{bench_arguments, mesh_file};
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
     AccelerationStructure, BihConverter, Bvh, BvhBuilder, DualSplitBuilder, DualSplitConverter,
@@ -29,7 +29,7 @@ const ROUNDS: usize = 15;
 const TURN: usize = 400;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for path in std::env::args().skip(1) {
+    for path in bench_arguments() {
         let triangles = mesh_file::load(&path)?;
         println!("{path}: {} triangles", triangles.len());
         compare(&triangles)?;

@@ -2,7 +2,7 @@
 //! of triangles.
 //!
 //! ```sh
-//! cargo run --release -p accel-bvh --example packets -- bunny.obj
+//! cargo bench -p accel-bvh --bench packets -- bunny.obj
 //! ```
 //!
 //! One thread answers the rays in tiles of 8 by 8 pixels, again row by row, and
@@ -20,7 +20,7 @@ use accel_bvh::{
     AccelerationStructure, Bvh, BvhBuilder, ClosestHit, Hit, ObjectSplit, PacketTraversal,
     RaySegment, TraversalCounters, Triangle,
 };
-use accel_core::testing::mesh_file;
+use accel_core::testing::{bench_arguments, mesh_file};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -29,7 +29,7 @@ const ROUNDS: usize = 5;
 const TURN: usize = 4096;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for path in std::env::args().skip(1) {
+    for path in bench_arguments() {
         let triangles = mesh_file::load(&path)?;
         println!("{path}: {} triangles", triangles.len());
         let builder = BvhBuilder {

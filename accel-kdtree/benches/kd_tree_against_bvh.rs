@@ -3,7 +3,7 @@
 //! like (Ize 2008, Table 3), what rays cost (Table 2), and how fast they are.
 //!
 //! ```sh
-//! cargo run --release -p accel-kdtree --example kd_tree_against_bvh -- MESH.obj [x,y,z,x,y,z,fov]
+//! cargo bench -p accel-kdtree --bench kd_tree_against_bvh -- MESH.obj [x,y,z,x,y,z,fov]
 //! ```
 //!
 //! The camera is given by where it stands, what it looks at, and its vertical
@@ -19,7 +19,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use accel_bvh::{Bvh, BvhBuilder, ObjectSplit};
-use accel_core::testing::mesh_file;
+use accel_core::testing::{bench_arguments, mesh_file};
 use accel_kdtree::glam::Vec3;
 use accel_kdtree::{
     Aabb, AccelerationStructure, BuildError, KdTree, KdTreeBuilder, PacketTraversal, PlaneSearch,
@@ -36,8 +36,11 @@ const ROUNDS: usize = 5;
 const TURN: usize = 4096;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().ok_or("name an OBJ file")?;
+    let mut arguments = bench_arguments();
+    let Some(path) = arguments.next() else {
+        println!("name an OBJ file");
+        return Ok(());
+    };
     let triangles = mesh_file::load(&path)?;
     let eye = match arguments.next() {
         Some(text) => parse_numbers(&text)?,

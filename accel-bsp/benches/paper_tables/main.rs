@@ -3,7 +3,7 @@
 //! size, build time and peak memory.
 //!
 //! ```sh
-//! cargo run --release -p accel-bsp --example paper_tables -- bunny.obj skinny-cylinder-rotated
+//! cargo bench -p accel-bsp --bench paper_tables -- bunny.obj skinny-cylinder-rotated
 //! ```
 //!
 //! A scene is an OBJ file of polygons, or the name of a family of the test scenes.
@@ -23,12 +23,13 @@ use accel_bsp::{
     AccelerationStructure, BspBuilder, BspCosts, BspTree, Hit, RaySegment, TraversalCounters,
     Triangle, UnconfirmedHit,
 };
+use accel_core::testing::bench_arguments;
 
 type Failure = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), Failure> {
     let mut options = sweeps::Options::default();
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = bench_arguments();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--epsilon" => options.epsilon = true,

@@ -2,7 +2,7 @@
 //! triangles, for each reference and level of the tree, and for n log2 n.
 //!
 //! ```sh
-//! cargo run --release -p accel-kdtree --example kd_tree_growth
+//! cargo bench -p accel-kdtree --bench kd_tree_growth
 //! ```
 //!
 //! The exponent is that of the comparisons between one size and the next.

@@ -4,7 +4,7 @@
 //! leaves, *similar* trees at least these.
 //!
 //! ```sh
-//! cargo run --release -p accel-dualsplit --example visited_leaves -- bunny.obj
+//! cargo bench -p accel-dualsplit --bench visited_leaves -- bunny.obj
 //! ```
 //!
 //! A million rays a mesh, between random points of its box; `RAYS` sets another
@@ -14,7 +14,7 @@
 #[path = "../tests/suite/recorder.rs"]
 mod recorder;
 
-use accel_core::testing::mesh_file;
+use accel_core::testing::{bench_arguments, mesh_file};
 use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{AccelerationStructure, BvhBuilder, ObjectSplit, RaySegment};
 use rand::{RngExt, SeedableRng};
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         object_split: ObjectSplit::FullSweep,
         ..BvhBuilder::default()
     };
-    for path in std::env::args().skip(1) {
+    for path in bench_arguments() {
         let triangles = mesh_file::load(&path)?;
         println!("{path}: {} triangles", triangles.len());
         let trees = Trees::new(&builder, &recorders(&triangles))?;
