@@ -247,7 +247,7 @@ fn a_scene_with_nothing_to_hit_is_compared_all_the_same() {
 #[test]
 fn paper_sbvh_tells_the_limits_intervals_and_references_of_its_figures() {
     let folder = tempfile::tempdir().unwrap();
-    let mut arguments = vec!["paper", "sbvh", "cylinder", "colonnade-45@3000"];
+    let mut arguments = vec!["paper", "sbvh", "cylinder", "colonnade-45@600"];
     arguments.extend(["--viewpoints", "1"]);
     arguments.extend(QUICK);
     arguments.push("out");
