@@ -47,7 +47,7 @@
 //! primitives as wholes, since the parts that a spatial split made are unknown
 //! once they have moved: hits stay exact, but the overlap that the splits removed
 //! comes back, and with it the duplicates are dead weight. Where splits doubled the
-//! references, a refitted tree costs up to twice the plain BVH's (SAH), even if
+//! references, a refitted tree costs about twice the plain BVH's (SAH), even if
 //! nothing moved; where they added a hundredth, nothing. To animate, build a plain
 //! BVH or rebuild.
 //!

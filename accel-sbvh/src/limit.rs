@@ -8,8 +8,8 @@ use accel_core::layout::MAX_PRIMITIVES;
 /// 6.1). Never below one a primitive; primitives that are skipped don't count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReferenceLimit {
-    /// As many as spatial splits make: several dozen a primitive where long
-    /// primitives cross each other, and more the fewer of them leaves may hold.
+    /// As many as spatial splits make: many times the number of primitives where
+    /// long ones cross each other, and more the fewer of them leaves may hold.
     /// [`BuildBudget::max_bytes`](accel_core::BuildBudget::max_bytes) holds all
     /// the same.
     Unlimited,
@@ -25,8 +25,8 @@ pub enum ReferenceLimit {
 
 impl Default for ReferenceLimit {
     /// Two a primitive: spent by benefit, these gain nearly all that there is to
-    /// gain on buildings and scans. Scenes of long primitives that cross each other
-    /// everywhere gain from more, and ask for dozens of times their size.
+    /// gain in an atrium, rotated or not. Scenes of long primitives that cross each
+    /// other everywhere gain from more, and ask for many times as many.
     fn default() -> Self {
         Self::Factor(2.0)
     }
@@ -102,9 +102,8 @@ pub enum Spending {
     /// scheme of Stich 2009, section 6.1.
     BreadthFirst,
     /// Every child gets a share in proportion to its references, and spends it
-    /// on its own (Waechter and Keller 2007). Small subtrees that need more than
-    /// their share go without while others leave theirs: below one and a half
-    /// references a primitive little is split.
+    /// on its own (Waechter and Keller 2007). Subtrees that need more than their
+    /// share go without while others leave theirs unspent.
     Shares,
 }
 
