@@ -10,6 +10,7 @@ use accel_core::{
 
 use crate::binned::{BinnedSearch, BinnedTask};
 use crate::node_rules::NodeRules;
+use crate::reinsertion::Reinsertion;
 use crate::sweep::{SweepMemory, SweepSearch};
 use crate::{Bvh, ChildBounds, LeafRule};
 
@@ -34,6 +35,8 @@ pub struct BvhBuilder {
     pub object_split: ObjectSplit,
     /// When a node becomes a leaf.
     pub leaf_rule: LeafRule,
+    /// How long the tree is improved afterwards; `None` leaves it as it is.
+    pub reinsertion: Option<Reinsertion>,
     /// The costs of visiting a node and of testing a primitive.
     pub heuristic: SurfaceAreaHeuristic,
     /// Whether primitives without finite bounds are refused or left out.
@@ -91,7 +94,7 @@ impl BvhBuilder {
             return Ok(Bvh::empty(primitives, skipped));
         }
         let rules = NodeRules::new(self, gathered.references.len());
-        let tree = self.build_tree(&rules, gathered.references, bounds, 0, observer)?;
+        let tree = self.build_tree(&rules, gathered.references, bounds, observer)?;
         Bvh::from_build_tree(primitives, &tree, bounds, skipped, &self.budget)
     }
 
@@ -103,6 +106,8 @@ impl BvhBuilder {
         self.heuristic.validate()?;
         self.leaf_rule.validate()?;
         self.budget.validate()?;
+        self.reinsertion
+            .map_or(Ok(()), |reinsertion| reinsertion.validate())?;
         match self.object_split {
             ObjectSplit::Binned { bins } if !(2..=MAX_BINS).contains(&bins) => {
                 Err(BuildError::InvalidSetting {
@@ -122,13 +127,15 @@ impl BvhBuilder {
             ObjectSplit::FullSweep => SweepMemory::BYTES_PER_REFERENCE,
             ObjectSplit::Binned { .. } => BinnedTask::BYTES_PER_REFERENCE,
         };
-        primitives.saturating_mul(per_primitive)
+        let improving = self
+            .reinsertion
+            .map_or(0, |_| Reinsertion::BYTES_PER_REFERENCE);
+        primitives.saturating_mul(per_primitive.max(improving))
     }
 
     /// Builds the tree over references that someone else made, of boxes within
-    /// `bounds`: for builders outside this crate. The root lies at `depth`: 0,
-    /// unless the tree becomes part of another. Of the settings, `object_split`
-    /// alone is used.
+    /// `bounds`: for builders outside this crate. Of the settings,
+    /// `object_split` and `reinsertion` alone are used.
     ///
     /// # Errors
     /// [`BuildError::Cancelled`] if `observer` asked for it.
@@ -136,6 +143,30 @@ impl BvhBuilder {
     /// # Panics
     /// If `references` is empty.
     pub fn build_tree(
+        &self,
+        rules: &NodeRules,
+        references: Vec<Reference>,
+        bounds: Aabb,
+        observer: &dyn BuildObserver,
+    ) -> Result<BuildTree<ChildBounds>, BuildError> {
+        let Some(reinsertion) = self.reinsertion else {
+            return self.build_subtree(rules, references, bounds, 0, observer);
+        };
+        let fine = rules.with_fine_leaves();
+        let tree = self.build_subtree(&fine, references, bounds, 0, observer)?;
+        reinsertion.improve(&tree, bounds, rules, observer)
+    }
+
+    /// As [`build_tree`](Self::build_tree), for a part of another tree whose
+    /// root lies at `depth` there. Of the settings, `object_split` alone is
+    /// used.
+    ///
+    /// # Errors
+    /// As [`build_tree`](Self::build_tree).
+    ///
+    /// # Panics
+    /// If `references` is empty.
+    pub fn build_subtree(
         &self,
         rules: &NodeRules,
         mut references: Vec<Reference>,

@@ -32,10 +32,12 @@
 //!   uncompressed layout of 52 and 4 bytes and its leaf rule.
 //! - Fabianowski and Dingliana, *Compact BVH Storage for Ray Tracing and Photon
 //!   Mapping*, 2009: nodes of 32 bytes.
+//! - Meister and Bittner, *Parallel Reinsertion for Bounding Volume Hierarchy
+//!   Optimization*, 2018: [`Reinsertion`].
 //!
 //! # Reading order
 //! [`BvhBuilder`] takes settings and runs one of the two searches (`sweep`,
-//! `binned`); `layout` packs the tree they make into the words of `node`;
+//! `binned`); `reinsertion` improves what they make; `layout` packs the tree they make into the words of `node`;
 //! `traversal` walks them; `refit`, `validate` and `persistence` follow. `compact` converts the
 //! tree to [`CompactBvh`], whose nodes share planes.
 //!
@@ -61,6 +63,7 @@ mod packet;
 mod persistence;
 mod reading;
 mod refit;
+mod reinsertion;
 mod sweep;
 mod traversal;
 mod validate;
@@ -73,6 +76,7 @@ pub use leaf_rule::LeafRule;
 pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
 pub use node_rules::NodeRules;
 pub use reading::{BvhNode, NodeHandle};
+pub use reinsertion::Reinsertion;
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

@@ -28,6 +28,20 @@ impl NodeRules {
         }
     }
 
+    /// The same rules for a tree whose leaves are put together afterwards: with
+    /// as few references in each as the leaf rule allows.
+    pub(crate) fn with_fine_leaves(mut self) -> Self {
+        if let LeafRule::SahUpTo(_) = self.leaf_rule {
+            self.leaf_rule = LeafRule::StopAt(1);
+        }
+        self
+    }
+
+    /// The most edges from the root to a leaf.
+    pub(crate) fn max_depth(&self) -> u32 {
+        self.max_depth
+    }
+
     /// Whether a node is a leaf without looking for a split.
     #[inline]
     pub fn ends_before_search(&self, count: usize, depth: u32) -> bool {

@@ -1,6 +1,6 @@
 //! Settings, and the way from primitives to a tree.
 
-use accel_bvh::{Bvh, BvhBuilder, LeafRule, NodeRules, ObjectSplit};
+use accel_bvh::{Bvh, BvhBuilder, LeafRule, NodeRules, ObjectSplit, Reinsertion};
 use accel_core::reference::{Reference, gather};
 use accel_core::{
     BuildBudget, BuildError, BuildObserver, Clip, InvalidPrimitives, SurfaceAreaHeuristic,
@@ -59,6 +59,9 @@ pub struct SbvhBuilder {
     pub spending: Spending,
     /// When a node becomes a leaf.
     pub leaf_rule: LeafRule,
+    /// How long the tree is improved afterwards; `None`, as in the paper, leaves
+    /// it as it is.
+    pub reinsertion: Option<Reinsertion>,
     /// The costs of visiting a node and of testing a primitive.
     pub heuristic: SurfaceAreaHeuristic,
     /// Whether primitives without finite bounds are refused or left out.
@@ -80,6 +83,7 @@ impl Default for SbvhBuilder {
             limit: ReferenceLimit::default(),
             spending: Spending::default(),
             leaf_rule: LeafRule::default(),
+            reinsertion: None,
             heuristic: SurfaceAreaHeuristic::default(),
             invalid_primitives: InvalidPrimitives::default(),
             budget: BuildBudget::default(),
@@ -120,12 +124,18 @@ impl SbvhBuilder {
             return Ok((bvh, SplitStatistics::default()));
         }
         let root = self.root(gathered.references, primitives, spare);
+        let rules = NodeRules::new(&objects, count);
         let growth = Growth {
-            partitioning: self.partitioning(primitives, &root, NodeRules::new(&objects, count)),
+            partitioning: self.partitioning(primitives, &root, rules),
             objects,
             observer,
         };
-        let (tree, statistics) = growth.grow(root, WaitingList::new(self.spending, spare))?;
+        let (mut tree, statistics) = growth.grow(root, WaitingList::new(self.spending, spare))?;
+        if let Some(reinsertion) = self.reinsertion {
+            tree = reinsertion.improve(&tree, bounds, &rules, observer)?;
+            // Parts of a primitive may have come together.
+            tree.remove_duplicates_in_leaves();
+        }
         let bvh = Bvh::from_build_tree(primitives, &tree, bounds, skipped, &self.budget)?;
         Ok((bvh, statistics))
     }
@@ -157,6 +167,7 @@ impl SbvhBuilder {
         BvhBuilder {
             object_split: self.object_split,
             leaf_rule: self.leaf_rule,
+            reinsertion: self.reinsertion,
             heuristic: self.heuristic,
             invalid_primitives: self.invalid_primitives,
             budget: self.budget,

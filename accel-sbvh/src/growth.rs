@@ -156,7 +156,7 @@ impl<P: Clip> Growth<'_, P> {
         let observer = CancelOnly(self.observer);
         let rules = &self.partitioning.rules;
         self.objects
-            .build_tree(rules, references, bounds, depth, &observer)
+            .build_subtree(rules, references, bounds, depth, &observer)
     }
 }
 

@@ -77,7 +77,8 @@ pub use accel_bvh::{
     self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
     Bvh, BvhBuilder, ClosestHit, Face, Filtered, Hit, Indexed, Intersection, InvalidPrimitives,
     LeafOrdered, LeafRule, ObjectSplit, PreparedRay, Primitive, Query, Ray, RaySegment, RefitError,
-    Sphere, SurfaceAreaHeuristic, SurfacePoint, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, accel_core, glam, triangles_of_mesh,
+    Reinsertion, Sphere, SurfaceAreaHeuristic, SurfacePoint, TraversalCounters,
+    TraversalStatistics, TreeStatistics, Triangle, ValidationError, accel_core, glam,
+    triangles_of_mesh,
 };
 pub use accel_core::Clip;

@@ -1,8 +1,8 @@
 //! Every setting on every scene family, against brute force.
 
 use accel_bvh::{
-    AccelerationStructure, BvhBuilder, Hit, InvalidPrimitives, LeafRule, ObjectSplit, Sphere,
-    TraversalCounters, Triangle,
+    AccelerationStructure, BvhBuilder, Hit, InvalidPrimitives, LeafRule, ObjectSplit, Reinsertion,
+    Sphere, TraversalCounters, Triangle,
 };
 use accel_core::BruteForce;
 use accel_core::testing::agreement::{Expected, oracle};
@@ -22,12 +22,17 @@ const PART: Effort = Effort {
 };
 
 /// Checks all settings on every family, and that each tree is valid.
-fn check(effort: &Effort, settings: &[(ObjectSplit, LeafRule)]) -> Checked {
+fn check(
+    effort: &Effort,
+    settings: &[(ObjectSplit, LeafRule)],
+    reinsertion: Option<Reinsertion>,
+) -> Checked {
     let build = |triangles: &[Triangle]| {
         let builds = settings.iter().map(|&(object_split, leaf_rule)| {
             let builder = BvhBuilder {
                 object_split,
                 leaf_rule,
+                reinsertion,
                 invalid_primitives: InvalidPrimitives::Skip,
                 ..BvhBuilder::default()
             };
@@ -47,7 +52,7 @@ fn both_searches_agree_with_brute_force_on_every_family() {
         (ObjectSplit::FullSweep, LeafRule::SahUpTo(8)),
         (ObjectSplit::Binned { bins: 32 }, LeafRule::SahUpTo(8)),
     ];
-    let checked = check(&Effort::default(), &settings);
+    let checked = check(&Effort::default(), &settings, None);
     assert!(
         checked.families >= 40 && checked.scenes >= 40 * 25,
         "{checked:?}"
@@ -63,8 +68,24 @@ fn other_leaf_rules_and_bins_agree_on_every_family() {
         (ObjectSplit::Binned { bins: 64 }, LeafRule::StopAt(8)),
         (ObjectSplit::Binned { bins: 2 }, LeafRule::StopAt(1)),
     ];
-    let checked = check(&PART, &settings);
+    let checked = check(&PART, &settings, None);
     assert!(checked.hits > 4_000, "{checked:?}");
+}
+
+#[test]
+fn improved_trees_agree_on_every_family() {
+    let settings = [
+        (ObjectSplit::FullSweep, LeafRule::SahUpTo(8)),
+        (ObjectSplit::Binned { bins: 32 }, LeafRule::StopAt(4)),
+    ];
+    let everything = Reinsertion {
+        rounds: 30,
+        share: 1.0,
+    };
+    for reinsertion in [Reinsertion::default(), everything] {
+        let checked = check(&PART, &settings, Some(reinsertion));
+        assert!(checked.hits > 2_000, "{checked:?}");
+    }
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Trees are the same bytes for any number of threads.
 
-use accel_bvh::{AccelerationStructure, Bvh, BvhBuilder, LeafRule, ObjectSplit, Triangle};
+use accel_bvh::{
+    AccelerationStructure, Bvh, BvhBuilder, LeafRule, ObjectSplit, Reinsertion, Triangle,
+};
 use accel_core::testing::families;
 
 fn in_pool(threads: usize, triangles: &[Triangle], builder: &BvhBuilder) -> Bvh<Triangle> {
@@ -18,10 +20,14 @@ fn the_tree_does_not_depend_on_the_number_of_threads() {
         let triangles = families::find(family).expect(family).scene(7, 36_000);
         assert!(triangles.len() > 1 << 15, "{family}");
         for object_split in [ObjectSplit::FullSweep, ObjectSplit::Binned { bins: 32 }] {
-            for leaf_rule in [LeafRule::StopAt(8), LeafRule::SahUpTo(8)] {
+            for (leaf_rule, reinsertion) in [
+                (LeafRule::StopAt(8), None),
+                (LeafRule::SahUpTo(8), Some(Reinsertion::default())),
+            ] {
                 let builder = BvhBuilder {
                     object_split,
                     leaf_rule,
+                    reinsertion,
                     ..BvhBuilder::default()
                 };
                 let one = in_pool(1, &triangles, &builder);

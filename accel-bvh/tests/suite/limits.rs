@@ -2,7 +2,7 @@
 
 use accel_bvh::{
     AccelerationStructure, BuildBudget, BuildError, BuildObserver, BvhBuilder, InvalidPrimitives,
-    LeafRule, ObjectSplit, RaySegment, SurfaceAreaHeuristic, Triangle,
+    LeafRule, ObjectSplit, RaySegment, Reinsertion, SurfaceAreaHeuristic, Triangle,
 };
 use accel_core::glam::Vec3;
 
@@ -57,6 +57,13 @@ fn invalid_primitives_are_named_or_skipped_and_others_keep_their_ids() {
     );
 }
 
+fn improving(reinsertion: Reinsertion) -> BvhBuilder {
+    BvhBuilder {
+        reinsertion: Some(reinsertion),
+        ..BvhBuilder::default()
+    }
+}
+
 #[test]
 fn settings_out_of_range_are_named() {
     let default = BvhBuilder::default();
@@ -81,6 +88,34 @@ fn settings_out_of_range_are_named() {
                 leaf_rule: LeafRule::SahUpTo(0),
                 ..default
             },
+        ),
+        (
+            "rounds",
+            improving(Reinsertion {
+                rounds: 0,
+                share: 0.5,
+            }),
+        ),
+        (
+            "rounds",
+            improving(Reinsertion {
+                rounds: 1001,
+                share: 0.5,
+            }),
+        ),
+        (
+            "share",
+            improving(Reinsertion {
+                rounds: 1,
+                share: 0.0,
+            }),
+        ),
+        (
+            "share",
+            improving(Reinsertion {
+                rounds: 1,
+                share: f64::NAN,
+            }),
         ),
         (
             "traversal_cost",

@@ -8,5 +8,6 @@ mod limits;
 mod packets;
 mod persistence;
 mod refit;
+mod reinsertion;
 mod stress;
 mod watertight;

@@ -129,7 +129,7 @@ impl<S> Pipeline<'_, S> {
         let bounds = gathered.bounds;
         let mut tree = self
             .bvh
-            .build_tree(&rules, numbered.collect(), bounds, 0, observer)?;
+            .build_tree(&rules, numbered.collect(), bounds, observer)?;
         tree.map_ids(|part| ids[part as usize]);
         if self.remove_duplicates {
             tree.remove_duplicates_in_leaves();

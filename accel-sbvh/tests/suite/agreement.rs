@@ -7,7 +7,7 @@ use accel_core::testing::{families, rays, strategy};
 use accel_sbvh::glam::Vec3;
 use accel_sbvh::{
     AccelerationStructure, CandidateClipping, InvalidPrimitives, LeafRule, ObjectSplit,
-    ReferenceLimit, SbvhBuilder, Spending, Sphere, Triangle,
+    ReferenceLimit, Reinsertion, SbvhBuilder, Spending, Sphere, Triangle,
 };
 use proptest::prelude::*;
 
@@ -74,6 +74,7 @@ fn full_splitting_agrees_on_every_family() {
             alpha: 0.0,
             unsplitting: false,
             spatial_bins: 7,
+            reinsertion: Some(Reinsertion::default()),
             ..base()
         },
     ];
