@@ -32,14 +32,17 @@
 //!   uncompressed layout of 52 and 4 bytes and its leaf rule.
 //! - Fabianowski and Dingliana, *Compact BVH Storage for Ray Tracing and Photon
 //!   Mapping*, 2009: nodes of 32 bytes.
+//! - Wald, Benthin and Boulos, *Getting Rid of Packets*, 2008: [`WideBvh`].
 //! - Meister and Bittner, *Parallel Reinsertion for Bounding Volume Hierarchy
 //!   Optimization*, 2018: [`Reinsertion`].
 //!
 //! # Reading order
 //! [`BvhBuilder`] takes settings and runs one of the two searches (`sweep`,
-//! `binned`); `reinsertion` improves what they make; `layout` packs the tree they make into the words of `node`;
-//! `traversal` walks them; `refit`, `validate` and `persistence` follow. `compact` converts the
-//! tree to [`CompactBvh`], whose nodes share planes.
+//! `binned`); `reinsertion` improves what they make; `layout` packs it into the
+//! words of `node`; `traversal` walks them; `refit`, `validate` and `persistence`
+//! follow. `compact` converts the tree to [`CompactBvh`], whose nodes share planes,
+//! and `wide` to [`WideBvh`], whose nodes have eight children: the fastest for
+//! single rays.
 //!
 //! # Complexity
 //! Both builders take O(n log n) time: the depth is bounded, by falling back to
@@ -67,6 +70,7 @@ mod reinsertion;
 mod sweep;
 mod traversal;
 mod validate;
+mod wide;
 
 pub use builder::{BvhBuilder, ObjectSplit};
 pub use bvh::Bvh;
@@ -77,6 +81,7 @@ pub use node::{INNER_NODE_BYTES, LEAF_NODE_BYTES};
 pub use node_rules::NodeRules;
 pub use reading::{BvhNode, NodeHandle};
 pub use reinsertion::Reinsertion;
+pub use wide::{WIDE_NODE_BYTES, WideBvh};
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

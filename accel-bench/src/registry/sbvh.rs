@@ -1,5 +1,6 @@
 //! The rows of accel-sbvh.
 
+use accel_bvh::WideBvh;
 use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
 use accel_sbvh::presplit::{EarlySplitClipping, EdgeVolumeHeuristic};
 use accel_sbvh::{CandidateClipping, ReferenceLimit, Reinsertion, SbvhBuilder};
@@ -54,6 +55,22 @@ pub(super) static ROWS: &[Row] = &[
                 ..SbvhBuilder::default()
             };
             build_sbvh(builder, triangles, invalid, observer)
+        },
+    },
+    Row {
+        name: "wide-sbvh",
+        is_headline: false,
+        about: "sbvh-reinsertion with eight children a node, tested together, 224-byte nodes",
+        settings: "as sbvh-reinsertion; the largest box opened until there are eight",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid_primitives, observer| {
+            let builder = SbvhBuilder {
+                reinsertion: Some(Reinsertion::default()),
+                invalid_primitives,
+                ..SbvhBuilder::default()
+            };
+            let (bvh, _) = builder.build_with(triangles, observer)?;
+            Ok(Box::new(WideBvh::from_bvh(&bvh)?))
         },
     },
     Row {

@@ -11,3 +11,4 @@ mod refit;
 mod reinsertion;
 mod stress;
 mod watertight;
+mod wide;

@@ -21,7 +21,7 @@ pub use cell_packet::{CellTree, CellVisit, Division, RayPart};
 pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
-pub use stack::{PacketStack, StackEntry, TraversalStack};
+pub use stack::{PacketStack, StackEntry, TraversalStack, WideStack};
 pub use vectors::VectorTraversal;
 
 /// Answers ray queries over a set of primitives.

@@ -71,6 +71,84 @@ impl<N: Copy> TraversalStack<N> {
     }
 }
 
+/// As [`TraversalStack`], for trees of up to eight children a node, of which all
+/// but one may be put off.
+#[derive(Clone, Debug)]
+pub struct WideStack<N> {
+    entries: ArrayVec<StackEntry<N>, { 7 * BuildBudget::DEEPEST as usize + 8 }>,
+}
+
+impl<N: Copy> WideStack<N> {
+    /// An empty stack.
+    #[inline]
+    pub fn new() -> Self {
+        Self {
+            entries: ArrayVec::new(),
+        }
+    }
+
+    /// How many nodes are put off.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether none is.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Puts `node` off.
+    ///
+    /// # Panics
+    /// If the tree is deeper than [`BuildBudget::DEEPEST`].
+    #[inline(always)]
+    pub fn push(&mut self, node: N, near: f32) {
+        self.entries.push(StackEntry { node, near });
+    }
+
+    /// The node put off last.
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<N> {
+        Some(self.entries.pop()?.node)
+    }
+
+    /// Puts `node` off, below those entries from `first` on that the ray enters
+    /// before it: the node's siblings, put off in any order, are taken from the
+    /// nearest to the farthest.
+    ///
+    /// # Panics
+    /// If the tree is deeper than [`BuildBudget::DEEPEST`].
+    #[inline(always)]
+    pub fn push_sorted(&mut self, node: N, near: f32, first: usize) {
+        self.entries.push(StackEntry { node, near });
+        let siblings = &mut self.entries[first..];
+        let mut place = siblings.len() - 1;
+        while place > 0 && siblings[place - 1].near < near {
+            siblings.swap(place, place - 1);
+            place -= 1;
+        }
+    }
+
+    /// As [`TraversalStack::pop_within`].
+    #[inline(always)]
+    pub fn pop_within(&mut self, t_max: f32) -> Option<N> {
+        loop {
+            let entry = self.entries.pop()?;
+            if entry.near <= t_max {
+                return Some(entry.node);
+            }
+        }
+    }
+}
+
+impl<N: Copy> Default for WideStack<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// As [`TraversalStack`], for packets: when an entry still matters is theirs to
 /// say.
 #[derive(Clone, Debug)]

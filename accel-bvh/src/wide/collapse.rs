@@ -1,0 +1,124 @@
+//! From two children a node to eight.
+
+use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
+
+use super::WideBvh;
+use super::node::{Pointer, Target, WIDTH, WideNode};
+use crate::{Bvh, BvhNode, NodeHandle};
+
+impl<P: Primitive> WideBvh<P> {
+    /// The wide form of `bvh`, whoever built that. The primitives in its leaves
+    /// are copied; hits name them as before.
+    ///
+    /// # Errors
+    /// [`BuildError::OffsetOverflow`] if the tree has more than 2^31 - 1 nodes or
+    /// leaf numbers.
+    pub fn from_bvh(bvh: &Bvh<P>) -> Result<Self, BuildError> {
+        let mut collapse = Collapse {
+            bvh,
+            nodes: Vec::new(),
+            depth: 0,
+        };
+        let root = bvh.root().map(|root| collapse.run(root)).transpose()?;
+        Ok(Self {
+            nodes: collapse.nodes,
+            stored: AccelerationStructure::stored(bvh).clone(),
+            root,
+            depth: collapse.depth,
+        })
+    }
+}
+
+type Child = (NodeHandle, Aabb);
+
+struct Collapse<'a, P: Primitive> {
+    bvh: &'a Bvh<P>,
+    nodes: Vec<WideNode>,
+    depth: u32,
+}
+
+/// An inner node of the binary tree that becomes a wide one.
+struct Pending {
+    handle: NodeHandle,
+    depth: u32,
+    /// The wide node and the place in it that name this one.
+    parent: Option<(usize, usize)>,
+}
+
+impl<P: Primitive> Collapse<'_, P> {
+    /// Writes all nodes in depth-first order; returns the root.
+    fn run(&mut self, (root, bounds): Child) -> Result<(Pointer, Aabb), BuildError> {
+        if let BvhNode::Leaf(leaf) = self.bvh.node(root) {
+            return Ok((Pointer::new(Target::Leaf(leaf))?, bounds));
+        }
+        let mut pending = vec![Pending {
+            handle: root,
+            depth: 0,
+            parent: None,
+        }];
+        while let Some(node) = pending.pop() {
+            let index = self.nodes.len();
+            if let Some((parent, place)) = node.parent {
+                let pointer = Pointer::new(Target::Inner(index as u32))?;
+                self.nodes[parent].set_child(place, pointer);
+            }
+            let children = self.children(node.handle);
+            self.nodes.push(self.encode(&children)?);
+            let depth = node.depth + 1;
+            self.depth = self.depth.max(depth);
+            let inner = children.iter().enumerate().rev();
+            pending.extend(inner.filter(|(_, (handle, _))| !handle.is_leaf()).map(
+                |(place, &(handle, _))| Pending {
+                    handle,
+                    depth,
+                    parent: Some((index, place)),
+                },
+            ));
+        }
+        Ok((Pointer::new(Target::Inner(0))?, bounds))
+    }
+
+    /// Eight descendants that together hold what `handle` holds, fewer if there
+    /// are no more: of those found, the one with the largest box is replaced by
+    /// its children.
+    fn children(&self, handle: NodeHandle) -> Vec<Child> {
+        let mut children = Vec::with_capacity(WIDTH);
+        children.extend(self.divided(handle));
+        while children.len() < WIDTH {
+            let inner = children
+                .iter()
+                .enumerate()
+                .filter(|(_, (handle, _))| !handle.is_leaf());
+            let area = |child: &(usize, &Child)| child.1.1.half_area();
+            let Some((largest, _)) = inner.max_by(|a, b| area(a).total_cmp(&area(b))) else {
+                break;
+            };
+            let (handle, _) = children[largest];
+            children.splice(largest..=largest, self.divided(handle));
+        }
+        children
+    }
+
+    /// The children of an inner node; none of a leaf.
+    fn divided(&self, handle: NodeHandle) -> impl Iterator<Item = Child> + use<P> {
+        let children = match self.bvh.node(handle) {
+            BvhNode::Inner { bounds, children } => Some(children.into_iter().zip(bounds)),
+            BvhNode::Leaf(_) => None,
+        };
+        children.into_iter().flatten()
+    }
+
+    /// The node of these children; inner ones are named when they are written.
+    fn encode(&self, children: &[Child]) -> Result<WideNode, BuildError> {
+        let encoded = children.iter().map(|&(handle, bounds)| {
+            let target = match self.bvh.node(handle) {
+                BvhNode::Leaf(leaf) => Target::Leaf(leaf),
+                BvhNode::Inner { .. } => Target::Nothing,
+            };
+            Ok((Pointer::new(target)?, bounds))
+        });
+        Ok(WideNode::new(
+            &encoded.collect::<Result<Vec<_>, BuildError>>()?,
+        ))
+    }
+}
