@@ -2,7 +2,7 @@
 
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::packet::lanes_of;
+use accel_core::ray::packet::{go_one_way, lanes_of};
 use accel_core::ray::{PacketRay, RayPacket};
 use accel_core::simd::Lanes;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
@@ -55,6 +55,9 @@ where
     Q: Query,
     S: TraversalStatistics,
 {
+    if !go_one_way(rays) {
+        return false;
+    }
     let packet = RayPacket::<L, VECTORS>::new(rays, |lane| queries[lane].t_max());
     let Some(mut packet) = packet else {
         return true;

@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 use super::{AccelerationStructure, PacketStack, VectorTraversal};
 use crate::layout::LeafStorage;
 use crate::query::Query;
-use crate::ray::packet::lanes_of;
+use crate::ray::packet::{go_one_way, lanes_of, start_at_one_point};
 use crate::ray::{PacketRay, PreparedRay, RayPacket};
 use crate::simd::Lanes;
 use crate::statistics::TraversalStatistics;
@@ -146,6 +146,9 @@ fn trace_vector<L: Lanes, A: CellTree, Q: Query, S: TraversalStatistics>(
     queries: &mut [Q],
     statistics: &mut S,
 ) {
+    if !go_one_way(rays) && !start_at_one_point(rays) {
+        return tree.traverse_each(rays, queries, statistics);
+    }
     let packet = RayPacket::<L, 1>::new(rays, |lane| queries[lane].t_max());
     let Some(mut packet) = packet else { return };
     let Some(prepared) = tree.prepare(&packet) else {

@@ -18,7 +18,7 @@ use crate::geometry::Axis;
 use crate::simd::Lanes;
 
 pub use bounds::PacketBounds;
-pub use packet_ray::PacketRay;
+pub use packet_ray::{PacketRay, go_one_way, start_at_one_point};
 pub use ray_lanes::RayLanes;
 
 /// Rays in `VECTORS` vectors of lanes, made ready for traversal.

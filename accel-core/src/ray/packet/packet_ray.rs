@@ -2,6 +2,8 @@
 
 use std::cell::OnceCell;
 
+use glam::Vec3;
+
 use crate::ray::{PreparedRay, Ray, RaySegment};
 
 /// A ray of a packet. It is made ready in lanes, together with the others; on its
@@ -10,6 +12,24 @@ use crate::ray::{PreparedRay, Ray, RaySegment};
 pub struct PacketRay {
     segment: RaySegment,
     prepared: OnceCell<Option<PreparedRay>>,
+}
+
+/// Whether the directions of `rays` agree in sign on every axis: told before they
+/// are made ready in lanes, which rays without a common way would pay for in vain.
+#[inline(always)]
+pub fn go_one_way(rays: &[PacketRay]) -> bool {
+    let signs = |ray: &PacketRay| ray.segment.direction.cmplt(Vec3::ZERO).bitmask();
+    let mut all = rays.iter().map(signs);
+    let first = all.next();
+    all.all(|signs| Some(signs) == first)
+}
+
+/// Whether `rays` start at one point: see [`go_one_way`].
+#[inline(always)]
+pub fn start_at_one_point(rays: &[PacketRay]) -> bool {
+    let mut all = rays.iter().map(|ray| ray.segment.origin);
+    let first = all.next();
+    all.all(|origin| Some(origin) == first)
 }
 
 impl PacketRay {
