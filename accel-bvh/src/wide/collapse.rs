@@ -1,5 +1,6 @@
 //! From two children a node to eight.
 
+use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
 use super::WideBvh;
@@ -11,18 +12,31 @@ impl<P: Primitive> WideBvh<P> {
     /// are copied; hits name them as before.
     ///
     /// # Errors
+    /// As [`with_storage`](Self::with_storage).
+    pub fn from_bvh(bvh: &Bvh<P>) -> Result<Self, BuildError> {
+        Self::with_storage(bvh)
+    }
+}
+
+impl<P: Primitive, L: LeafStorage<P>> WideBvh<P, L> {
+    /// The wide form of `bvh`, its leaves in storage `L`.
+    ///
+    /// # Errors
     /// [`BuildError::OffsetOverflow`] if the tree has more than 2^31 - 1 nodes or
     /// leaf numbers.
-    pub fn from_bvh(bvh: &Bvh<P>) -> Result<Self, BuildError> {
+    pub fn with_storage(bvh: &Bvh<P>) -> Result<Self, BuildError> {
+        let (stored, primitives) = AccelerationStructure::stored(bvh).emptied();
         let mut collapse = Collapse {
             bvh,
+            primitives,
             nodes: Vec::new(),
+            stored,
             depth: 0,
         };
         let root = bvh.root().map(|root| collapse.run(root)).transpose()?;
         Ok(Self {
             nodes: collapse.nodes,
-            stored: AccelerationStructure::stored(bvh).clone(),
+            stored: collapse.stored,
             root,
             depth: collapse.depth,
         })
@@ -31,9 +45,11 @@ impl<P: Primitive> WideBvh<P> {
 
 type Child = (NodeHandle, Aabb);
 
-struct Collapse<'a, P: Primitive> {
+struct Collapse<'a, P: Primitive, L: LeafStorage<P>> {
     bvh: &'a Bvh<P>,
+    primitives: Vec<P>,
     nodes: Vec<WideNode>,
+    stored: StoredPrimitives<P, L>,
     depth: u32,
 }
 
@@ -45,11 +61,11 @@ struct Pending {
     parent: Option<(usize, usize)>,
 }
 
-impl<P: Primitive> Collapse<'_, P> {
+impl<P: Primitive, L: LeafStorage<P>> Collapse<'_, P, L> {
     /// Writes all nodes in depth-first order; returns the root.
     fn run(&mut self, (root, bounds): Child) -> Result<(Pointer, Aabb), BuildError> {
         if let BvhNode::Leaf(leaf) = self.bvh.node(root) {
-            return Ok((Pointer::new(Target::Leaf(leaf))?, bounds));
+            return Ok((self.leaf(leaf)?, bounds));
         }
         let mut pending = vec![Pending {
             handle: root,
@@ -63,7 +79,8 @@ impl<P: Primitive> Collapse<'_, P> {
                 self.nodes[parent].set_child(place, pointer);
             }
             let children = self.children(node.handle);
-            self.nodes.push(self.encode(&children)?);
+            let encoded = self.encode(&children)?;
+            self.nodes.push(encoded);
             let depth = node.depth + 1;
             self.depth = self.depth.max(depth);
             let inner = children.iter().enumerate().rev();
@@ -100,7 +117,7 @@ impl<P: Primitive> Collapse<'_, P> {
     }
 
     /// The children of an inner node; none of a leaf.
-    fn divided(&self, handle: NodeHandle) -> impl Iterator<Item = Child> + use<P> {
+    fn divided(&self, handle: NodeHandle) -> impl Iterator<Item = Child> + use<P, L> {
         let children = match self.bvh.node(handle) {
             BvhNode::Inner { bounds, children } => Some(children.into_iter().zip(bounds)),
             BvhNode::Leaf(_) => None,
@@ -109,16 +126,24 @@ impl<P: Primitive> Collapse<'_, P> {
     }
 
     /// The node of these children; inner ones are named when they are written.
-    fn encode(&self, children: &[Child]) -> Result<WideNode, BuildError> {
+    fn encode(&mut self, children: &[Child]) -> Result<WideNode, BuildError> {
         let encoded = children.iter().map(|&(handle, bounds)| {
-            let target = match self.bvh.node(handle) {
-                BvhNode::Leaf(leaf) => Target::Leaf(leaf),
-                BvhNode::Inner { .. } => Target::Nothing,
+            let pointer = match self.bvh.node(handle) {
+                BvhNode::Leaf(leaf) => self.leaf(leaf)?,
+                BvhNode::Inner { .. } => Pointer::new(Target::Nothing)?,
             };
-            Ok((Pointer::new(target)?, bounds))
+            Ok((pointer, bounds))
         });
         Ok(WideNode::new(
             &encoded.collect::<Result<Vec<_>, BuildError>>()?,
         ))
+    }
+
+    /// Copies a leaf of the binary tree.
+    fn leaf(&mut self, leaf: u32) -> Result<Pointer, BuildError> {
+        let leaves = AccelerationStructure::stored(self.bvh).leaves();
+        let ids: Vec<u32> = leaves.leaf_ids(leaf).collect();
+        let leaf = self.stored.leaves_mut().push_leaf(&self.primitives, &ids);
+        Pointer::new(Target::Leaf(leaf))
     }
 }

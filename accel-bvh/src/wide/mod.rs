@@ -41,15 +41,15 @@ pub use node::WIDE_NODE_BYTES;
 /// # }
 /// ```
 #[derive(Clone, Debug)]
-pub struct WideBvh<P: Primitive> {
+pub struct WideBvh<P: Primitive, L: LeafStorage<P> = <P as Primitive>::Storage> {
     nodes: Vec<WideNode>,
-    stored: StoredPrimitives<P>,
+    stored: StoredPrimitives<P, L>,
     /// `None` where there is nothing to hit.
     root: Option<(Pointer, Aabb)>,
     depth: u32,
 }
 
-impl<P: Primitive> WideBvh<P> {
+impl<P: Primitive, L: LeafStorage<P>> WideBvh<P, L> {
     /// Edges from the root to the deepest leaf.
     pub fn depth(&self) -> u32 {
         self.depth
@@ -80,9 +80,9 @@ impl<P: Primitive> WideBvh<P> {
     }
 }
 
-impl<P: Primitive> AccelerationStructure for WideBvh<P> {
+impl<P: Primitive, L: LeafStorage<P>> AccelerationStructure for WideBvh<P, L> {
     type Primitive = P;
-    type Storage = P::Storage;
+    type Storage = L;
 
     #[inline]
     fn traverse<Q: Query, S: TraversalStatistics>(
@@ -98,7 +98,7 @@ impl<P: Primitive> AccelerationStructure for WideBvh<P> {
         self.root.map(|(_, bounds)| bounds)
     }
 
-    fn stored(&self) -> &StoredPrimitives<P> {
+    fn stored(&self) -> &StoredPrimitives<P, L> {
         &self.stored
     }
 
@@ -126,4 +126,4 @@ impl<P: Primitive> AccelerationStructure for WideBvh<P> {
     }
 }
 
-impl<P: Primitive, const N: usize> PacketTraversal<N> for WideBvh<P> {}
+impl<P: Primitive, L: LeafStorage<P>, const N: usize> PacketTraversal<N> for WideBvh<P, L> {}

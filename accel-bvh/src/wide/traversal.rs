@@ -1,7 +1,7 @@
 //! The one traversal of wide nodes, compiled for each instruction set.
 //!
 //! ```text
-//! node := root, if the ray meets its box
+//! node := root
 //! loop:
 //!     leaf:   offer its hits
 //!     inner:  test all boxes at once
@@ -14,7 +14,6 @@ use std::ops::ControlFlow;
 use accel_core::geometry::Axis;
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
-use accel_core::ray::max_or_keep;
 use accel_core::simd::{InstructionSet, Lanes, SimdLevel, SimdWork};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
 use accel_core::structure::WideStack;
@@ -23,22 +22,22 @@ use accel_core::{PreparedRay, Primitive};
 use super::WideBvh;
 use super::node::{Pointer, Target, WIDE_NODE_BYTES, WIDTH, WideNode};
 
-pub(super) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
-    bvh: &WideBvh<P>,
+pub(super) fn traverse<P, L, Q, S>(
+    bvh: &WideBvh<P, L>,
     level: SimdLevel,
     ray: &PreparedRay,
     query: &mut Q,
     statistics: &mut S,
-) {
-    let Some((root, bounds)) = bvh.root else {
+) where
+    P: Primitive,
+    L: LeafStorage<P>,
+    Q: Query,
+    S: TraversalStatistics,
+{
+    // Its box is not tested first: testing its children costs no more.
+    let Some((root, _)) = bvh.root else {
         return;
     };
-    statistics.test_boxes(1);
-    let whole = ray.slab(&bounds);
-    let near = max_or_keep(ray.t_min(), whole.near);
-    if !(near <= whole.far && near <= query.t_max()) {
-        return;
-    }
     let _ = level.run(TraverseBelow {
         bvh,
         root,
@@ -48,15 +47,21 @@ pub(super) fn traverse<P: Primitive, Q: Query, S: TraversalStatistics>(
     });
 }
 
-struct TraverseBelow<'a, P: Primitive, Q, S> {
-    bvh: &'a WideBvh<P>,
+struct TraverseBelow<'a, P: Primitive, L: LeafStorage<P>, Q, S> {
+    bvh: &'a WideBvh<P, L>,
     root: Pointer,
     ray: &'a PreparedRay,
     query: &'a mut Q,
     statistics: &'a mut S,
 }
 
-impl<P: Primitive, Q: Query, S: TraversalStatistics> SimdWork for TraverseBelow<'_, P, Q, S> {
+impl<P, L, Q, S> SimdWork for TraverseBelow<'_, P, L, Q, S>
+where
+    P: Primitive,
+    L: LeafStorage<P>,
+    Q: Query,
+    S: TraversalStatistics,
+{
     type Output = ControlFlow<()>;
 
     #[inline(always)]

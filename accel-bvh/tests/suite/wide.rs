@@ -5,6 +5,7 @@ use accel_bvh::{
     Sphere, TraversalCounters, Triangle, WIDE_NODE_BYTES, WideBvh,
 };
 use accel_core::PreparedRay;
+use accel_core::layout::TriangleBlocks;
 use accel_core::query::{AllHits, ClosestHit};
 use accel_core::simd::SimdLevel;
 use accel_core::testing::agreement::Expected;
@@ -50,6 +51,25 @@ fn wide_trees_agree_with_brute_force_on_every_family() {
         checked.families >= 40 && checked.hits > 6_000,
         "{checked:?}"
     );
+}
+
+#[test]
+fn leaves_of_blocks_agree_with_brute_force_on_every_family() {
+    let effort = Effort {
+        seeds: 2,
+        triangles: 400,
+        rays: 150,
+        full_size_rays: 0,
+    };
+    let build = |triangles: &[Triangle]| {
+        let bvh = builder(LeafRule::StopAt(6)).build(triangles)?;
+        let wide = WideBvh::<Triangle, TriangleBlocks<4>>::with_storage(&bvh)?;
+        wide.validate().unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(wide.skipped_count(), bvh.skipped_count());
+        Ok(vec![wide])
+    };
+    let checked = check_families(&effort, build).unwrap_or_else(|error| panic!("{error}"));
+    assert!(checked.hits > 3_000, "{checked:?}");
 }
 
 #[test]

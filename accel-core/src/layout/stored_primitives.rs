@@ -28,6 +28,26 @@ impl<P: Primitive, L: LeafStorage<P>> StoredPrimitives<P, L> {
         }
     }
 
+    /// No leaves yet, in another storage, over the same primitives, and these by
+    /// id to add leaves with. What no leaf holds has another primitive in its place.
+    pub fn emptied<M: LeafStorage<P>>(&self) -> (StoredPrimitives<P, M>, Vec<P>) {
+        let held: Vec<Option<P>> = (0..self.count as u32)
+            .map(|id| self.leaves.primitive(id))
+            .collect();
+        let some = held.iter().flatten().next().cloned();
+        let primitives = held
+            .into_iter()
+            .filter_map(|held| held.or_else(|| some.clone()));
+        let primitives: Vec<P> = primitives.collect();
+        let emptied = StoredPrimitives {
+            leaves: M::with_capacity(&primitives, self.leaves.reference_count()),
+            count: self.count,
+            skipped: self.skipped,
+            primitive: PhantomData,
+        };
+        (emptied, primitives)
+    }
+
     /// The leaves.
     #[inline]
     pub fn leaves(&self) -> &L {

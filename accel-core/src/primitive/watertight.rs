@@ -110,8 +110,29 @@ pub(crate) struct LaneTest {
     axes: [usize; 3],
 }
 
+/// Triangles side by side, sheared as the kernel does it.
+pub(crate) struct ShearedLanes<L> {
+    /// Corner; x, y and along the main axis.
+    corners: [[L; 3]; 3],
+}
+
+impl<L: Lanes> ShearedLanes<L> {
+    /// Decides one lane, as [`intersect`] does.
+    #[inline]
+    pub(crate) fn decide(&self, lane: usize, ray: &PreparedRay) -> Option<Intersection> {
+        let corner = |corner: &[L; 3]| Sheared {
+            x: corner[0].lanes()[lane],
+            y: corner[1].lanes()[lane],
+            z: corner[2].lanes()[lane],
+        };
+        let [a, b, c] = &self.corners;
+        finish([corner(a), corner(b), corner(c)], ray.shear().along)
+    }
+}
+
 impl LaneTest {
     /// The constants of `ray`.
+    #[inline]
     pub(crate) fn new(ray: &PreparedRay) -> Self {
         let shear = ray.shear();
         let last = shear.axis.index();
@@ -144,6 +165,35 @@ impl LaneTest {
             mask |= u32::from(!(negative & positive)) << lane;
         }
         mask
+    }
+
+    /// As [`candidates`](Self::candidates), in a vector; yields what
+    /// [`ShearedLanes::decide`] wants to know of the lanes as well.
+    #[inline(always)]
+    pub(crate) fn sheared_lanes<L: Lanes, const LANES: usize>(
+        &self,
+        vertices: &[[[f32; LANES]; 3]; 3],
+    ) -> (u32, ShearedLanes<L>) {
+        let [x, y, z] = self.axes;
+        let origin = [
+            L::splat(self.origin[0]),
+            L::splat(self.origin[1]),
+            L::splat(self.origin[2]),
+        ];
+        let shear = [L::splat(self.shear[0]), L::splat(self.shear[1])];
+        let zero = L::splat(0.0);
+        let mut corners = [[zero; 3]; 3];
+        for (corner, vertex) in corners.iter_mut().zip(vertices) {
+            let along = L::from_slice(&vertex[z]) - origin[2];
+            *corner = [
+                (L::from_slice(&vertex[x]) - origin[0]) - shear[0] * along,
+                (L::from_slice(&vertex[y]) - origin[1]) - shear[1] * along,
+                along,
+            ];
+        }
+        let [a, b, c] = corners;
+        let edges = edge_functions([(a[0], a[1]), (b[0], b[1]), (c[0], c[1])]);
+        (L::ALL & !both_signs_mask(edges), ShearedLanes { corners })
     }
 
     #[inline(always)]
