@@ -163,6 +163,7 @@ impl DualSplitBuilder {
             heuristic: self.heuristic,
             invalid_primitives: self.invalid_primitives,
             budget: self.budget,
+            ..BvhBuilder::default()
         };
         settings.validate()?;
         Ok(settings)
