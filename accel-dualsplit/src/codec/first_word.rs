@@ -102,6 +102,30 @@ impl FirstWord {
     }
 }
 
+/// Some of the headers of nodes on one axis, a bit each.
+#[derive(Clone, Copy, Debug)]
+pub struct HeaderSet(u32);
+
+impl HeaderSet {
+    /// Those of nodes on this axis.
+    pub(crate) fn on(axis: Axis) -> Self {
+        let of_kinds = 0b1111 << (4 * axis.index());
+        Self(of_kinds | of_kinds << LEAF)
+    }
+
+    /// Whether it holds the header of a node on one axis.
+    #[inline(always)]
+    pub(crate) fn holds(self, node: FirstWord) -> bool {
+        self.0 >> (node.0 >> OFFSET_BITS & (SEVERAL_AXES - 1)) & 1 != 0
+    }
+}
+
+impl FromIterator<Self> for HeaderSet {
+    fn from_iter<T: IntoIterator<Item = Self>>(sets: T) -> Self {
+        Self(sets.into_iter().fold(0, |all, set| all | set.0))
+    }
+}
+
 /// By header.
 static CARVED_PLANES: [[u8; 2]; 64] = carved_planes();
 

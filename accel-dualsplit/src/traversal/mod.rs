@@ -31,7 +31,7 @@ use accel_core::statistics::{NodeKind, TraversalStatistics};
 use accel_core::structure::TraversalStack;
 use accel_core::{PreparedRay, Primitive};
 
-use crate::codec::{FirstWord, LEAF_BYTES, NODE_BYTES, NODE_WORDS};
+use crate::codec::{FirstWord, LEAF_BYTES, LEAF_WORDS, NODE_BYTES, NODE_WORDS};
 use crate::node_set::NodeSet;
 use crate::tree::PlaneTree;
 
@@ -66,17 +66,14 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
     let mut stack: TraversalStack<PutOff> = TraversalStack::new();
     let mut position = 0_u32;
     loop {
-        let rest = &words[position as usize..];
-        let own: &[u32; NODE_WORDS] = rest.first_chunk().expect("padding follows the last node");
-        let node = FirstWord(own[0]);
-        // The same for a splitting node and one that carves on one axis: computed
-        // before it is known which of them this is.
-        let axis = axes.of(node);
-        let (farther_near, nearer_far) = axis.cut(planes_of(own), (near, far));
+        let place = NodePlace::new(words, position);
+        let node = place.first_word();
         if node.splits() {
             visit_two_planes(statistics, NodeKind::Splitting);
+            let cut = axes.of(node).cut(place.planes(), (near, far));
+            let (farther_near, nearer_far) = cut;
             let first = position + node.offset();
-            let [closer, farther] = axis.in_order(first, N::first_child_words(node));
+            let [closer, farther] = axes.in_order(node, first, N::first_child_words(node));
             let meets_farther = farther_near <= far;
             if near <= nearer_far {
                 // Whether both are met is hard to predict, and the way on is the
@@ -97,8 +94,7 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
             if !node.carves() {
                 statistics.visit_node(NodeKind::Leaf, LEAF_BYTES as u32);
             }
-            let on_axis = (farther_near, nearer_far);
-            (near, far) = N::carve(&carving, &axes, rest, (near, far), on_axis, statistics);
+            (near, far) = N::carve(&carving, &axes, &place, (near, far), statistics);
             if near <= far {
                 if !node.is_leaf() {
                     position += node.offset();
@@ -129,9 +125,42 @@ pub(crate) fn visit_two_planes<S: TraversalStatistics>(statistics: &mut S, kind:
     statistics.test_planes(2);
 }
 
-/// The planes of a node that has two, from its words. Of a leaf they are other words
-/// of the tree, or padding.
-#[inline(always)]
-pub(crate) fn planes_of(own: &[u32; NODE_WORDS]) -> &[u32; 2] {
-    own.last_chunk().expect("two of three words")
+/// A node where it lies among the words of a tree.
+#[derive(Clone, Copy)]
+pub struct NodePlace<'a> {
+    words: &'a [u32],
+    position: usize,
+    /// Of a leaf without planes, the others are other words of the tree, or padding.
+    own: &'a [u32; NODE_WORDS],
+}
+
+impl<'a> NodePlace<'a> {
+    /// At the position of a node in words that padding follows.
+    #[inline(always)]
+    fn new(words: &'a [u32], position: u32) -> Self {
+        let position = position as usize;
+        let own = words[position..position + NODE_WORDS].first_chunk();
+        Self {
+            words,
+            position,
+            own: own.expect("the slice has that length"),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn first_word(&self) -> FirstWord {
+        FirstWord(self.own[0])
+    }
+
+    /// The planes of a node that has two.
+    #[inline(always)]
+    pub(crate) fn planes(&self) -> &'a [u32; 2] {
+        self.own.last_chunk().expect("two of three words")
+    }
+
+    /// The planes of a node that may have more, and what follows them.
+    #[inline(always)]
+    pub(crate) fn planes_and_rest(&self) -> &'a [u32] {
+        &self.words[self.position + LEAF_WORDS..]
+    }
 }
