@@ -59,6 +59,7 @@ mod statistics;
 mod traversal;
 mod tree;
 mod validate;
+mod wide;
 
 pub use bih::{Bih, BihConverter, BihNodes};
 pub use codec::{LEAF_BYTES, NODE_BYTES};
@@ -70,6 +71,7 @@ pub use node_set::{DualSplitNodes, NodeSet};
 pub use statistics::NodeStatistics;
 pub use tree::{DualSplitTree, PlaneTree};
 pub use validate::check_words;
+pub use wide::WideDualSplitTree;
 
 pub use accel_bvh::{Bvh, BvhBuilder, LeafRule, ObjectSplit};
 pub use accel_core::layout::{Indexed, LeafOrdered};

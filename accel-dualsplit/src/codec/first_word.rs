@@ -88,10 +88,7 @@ impl FirstWord {
 
     /// Asked of dual-axis nodes.
     pub(super) fn dual_planes(self) -> [BoxPlane; 2] {
-        self.dual_plane_indices().map(|index| BoxPlane {
-            axis: Axis::ALL[index / 2],
-            is_high: index % 2 == 1,
-        })
+        self.dual_plane_indices().map(BoxPlane::from_index)
     }
 
     /// Asked of bounding nodes.

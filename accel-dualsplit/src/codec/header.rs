@@ -22,8 +22,16 @@ impl BoxPlane {
         2 * self.axis.index() + usize::from(self.is_high)
     }
 
+    /// The plane with this [`index`](Self::index).
+    pub(crate) fn from_index(index: usize) -> Self {
+        Self {
+            axis: Axis::ALL[index / 2],
+            is_high: index % 2 == 1,
+        }
+    }
+
     /// Where the plane is on a box.
-    fn of(self, bounds: &Aabb) -> f32 {
+    pub(crate) fn of(self, bounds: &Aabb) -> f32 {
         self.axis
             .of(if self.is_high { bounds.max } else { bounds.min })
     }

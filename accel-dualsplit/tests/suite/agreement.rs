@@ -8,7 +8,7 @@ use accel_core::testing::{families, rays, strategy};
 use accel_dualsplit::{
     AccelerationStructure, BuildError, Bvh, BvhBuilder, CarvingCosts, DualSplitBuilder,
     DualSplitConverter, DualSplitTree, InvalidPrimitives, LeafRule, ObjectSplit, Partitioning,
-    Sphere, Triangle,
+    Sphere, Triangle, WideDualSplitTree,
 };
 use accel_sbvh::SbvhBuilder;
 use proptest::prelude::*;
@@ -108,6 +108,34 @@ fn directly_built_trees_agree_on_every_family() {
 }
 
 #[test]
+fn wide_trees_agree_on_every_family() {
+    let effort = Effort { seeds: 2, ..PART };
+    let builder = bvh_builder(ObjectSplit::FullSweep);
+    let split = SbvhBuilder {
+        alpha: 0.0,
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..SbvhBuilder::default()
+    };
+    let build = |triangles: &[Triangle]| {
+        let bvhs = [
+            builder.build(triangles)?,
+            split.build_with(triangles, &())?.0,
+        ];
+        let trees = bvhs.iter().map(WideDualSplitTree::from_bvh);
+        let trees = trees.collect::<Result<Vec<_>, _>>()?;
+        for tree in &trees {
+            tree.validate().unwrap_or_else(|error| panic!("{error}"));
+        }
+        Ok::<_, BuildError>(trees)
+    };
+    let checked = check_families(&effort, build).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        checked.families >= 40 && checked.hits > 4_000,
+        "{checked:?}"
+    );
+}
+
+#[test]
 fn spheres_agree_with_brute_force() {
     for seed in 0..5 {
         let boxes = families::find("soup-mixed-sizes").unwrap().scene(seed, 400);
@@ -117,6 +145,10 @@ fn spheres_agree_with_brute_force() {
             .collect();
         let oracle = BruteForce::new(&spheres).unwrap();
         let bvh = BvhBuilder::default().build(&spheres).unwrap();
+        let wide = WideDualSplitTree::from_bvh(&bvh).unwrap();
+        for ray in rays::mixed(&boxes, seed, 400) {
+            assert_eq!(wide.closest_hit(&ray), oracle.closest_hit(&ray), "{ray:?}");
+        }
         for partitioning in BOTH {
             let converter = DualSplitConverter {
                 partitioning,
@@ -159,6 +191,10 @@ proptest! {
         let expected = Expected::new(&scene.triangles, rays).unwrap();
         if let Some(first) = expected.disagreements(&tree).first() {
             prop_assert!(false, "{first}");
+        }
+        let wide = WideDualSplitTree::from_bvh(&bvh).unwrap();
+        if let Some(first) = expected.disagreements(&wide).first() {
+            prop_assert!(false, "wide: {first}");
         }
     }
 }
