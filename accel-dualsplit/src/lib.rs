@@ -53,6 +53,7 @@ mod direct;
 mod error;
 mod h_tree;
 mod node_set;
+mod packet;
 mod persistence;
 mod refit;
 mod statistics;

@@ -89,6 +89,19 @@ impl CarvingPlanes {
         }
     }
 
+    /// Which planes of a box they are, in the order in which they stand.
+    #[inline(always)]
+    pub(crate) fn box_planes(self) -> impl Iterator<Item = BoxPlane> {
+        let pair = |axis| [true, false].map(|is_high| BoxPlane { axis, is_high });
+        let (one, axes): (_, &[Axis]) = match self {
+            Self::Single(axis) => (Some(pair(axis)), &[]),
+            Self::Dual(a, b) => (Some([a, b]), &[]),
+            Self::Bounding(bounded) => (None, bounded.axes()),
+        };
+        let several = axes.iter().map(move |&axis| pair(axis));
+        one.into_iter().chain(several).flatten()
+    }
+
     /// The positions that carve to `bounds`: as many as there are planes, then zeros.
     pub(crate) fn around(self, bounds: &Aabb) -> [f32; MOST_PLANES] {
         let mut positions = [0.0; MOST_PLANES];

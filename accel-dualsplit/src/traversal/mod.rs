@@ -24,11 +24,13 @@
 mod axis_test;
 mod side_test;
 
+use std::ops::ControlFlow;
+
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
 use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
 use crate::codec::{FirstWord, LEAF_BYTES, LEAF_WORDS, NODE_BYTES, NODE_WORDS};
@@ -54,17 +56,34 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let mut near = max_or_keep(ray.t_min(), whole.near);
-    let mut far = min_or_keep(query.t_max(), whole.far);
+    let near = max_or_keep(ray.t_min(), whole.near);
+    let far = min_or_keep(query.t_max(), whole.far);
     // Neither is NaN: both began as numbers and kept them.
-    if near > far {
-        return;
+    if near <= far {
+        let root = RayPart { node: 0, near, far };
+        let _ = traverse_below(tree, root, ray, query, statistics);
     }
+}
+
+/// Traverses the part of the tree below a node, inside of whose region the ray has this
+/// part; breaks when the query does.
+#[inline]
+pub(crate) fn traverse_below<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistics>(
+    tree: &PlaneTree<P, N>,
+    part: RayPart,
+    ray: &PreparedRay,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
+    let RayPart {
+        node: mut position,
+        mut near,
+        mut far,
+    } = part;
     let words = tree.words.padded();
     let axes = AxisTests::new(ray);
     let carving = N::carving_test(ray);
     let mut stack: TraversalStack<PutOff> = TraversalStack::new();
-    let mut position = 0_u32;
     loop {
         let place = NodePlace::new(words, position);
         let node = place.first_word();
@@ -101,16 +120,11 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
                     continue;
                 }
                 let leaves = tree.stored.leaves();
-                if leaves
-                    .intersect_leaf(node.offset(), ray, query, statistics)
-                    .is_break()
-                {
-                    return;
-                }
+                leaves.intersect_leaf(node.offset(), ray, query, statistics)?;
             }
         }
         let Some(entry) = stack.pop_entry_within(query.t_max()) else {
-            return;
+            return ControlFlow::Continue(());
         };
         position = entry.node.position;
         near = entry.near;
@@ -137,7 +151,7 @@ pub struct NodePlace<'a> {
 impl<'a> NodePlace<'a> {
     /// At the position of a node in words that padding follows.
     #[inline(always)]
-    fn new(words: &'a [u32], position: u32) -> Self {
+    pub(crate) fn new(words: &'a [u32], position: u32) -> Self {
         let position = position as usize;
         let own = words[position..position + NODE_WORDS].first_chunk();
         Self {

@@ -202,10 +202,10 @@ mod tests {
     #[test]
     fn the_planes_that_cut_most_are_kept() {
         let region = Aabb::new([0.0; 3], [10.0; 3]);
-        let target = Aabb::new([1.0, 0.5, 4.0], [9.0, 6.0, 5.0]);
+        let target = Aabb::new([1.0, 0.5, 4.0], [8.5, 6.0, 5.0]);
         let (planes, left) = planes_towards(region, target);
         assert!(planes.0.iter().all(Option::is_some));
-        assert_eq!(left, Aabb::new([0.0, 0.0, 4.0], [9.0, 6.0, 5.0]));
+        assert_eq!(left, Aabb::new([0.0, 0.0, 4.0], [8.5, 6.0, 5.0]));
         let (planes, left) = planes_towards(region, region);
         assert!(planes.0.iter().all(Option::is_none));
         assert_eq!(left, region);

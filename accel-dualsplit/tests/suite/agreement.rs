@@ -4,11 +4,12 @@
 use accel_core::BruteForce;
 use accel_core::testing::agreement::Expected;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::packets::{check_packets, ray_sets};
 use accel_core::testing::{families, rays, strategy};
 use accel_dualsplit::{
-    AccelerationStructure, BuildError, Bvh, BvhBuilder, CarvingCosts, DualSplitBuilder,
-    DualSplitConverter, DualSplitTree, InvalidPrimitives, LeafRule, ObjectSplit, Partitioning,
-    Sphere, Triangle, WideDualSplitTree,
+    AccelerationStructure, BihConverter, BuildError, Bvh, BvhBuilder, CarvingCosts,
+    DualSplitBuilder, DualSplitConverter, DualSplitTree, HTreeConverter, InvalidPrimitives,
+    LeafRule, ObjectSplit, Partitioning, Sphere, Triangle, WideDualSplitTree,
 };
 use accel_sbvh::SbvhBuilder;
 use proptest::prelude::*;
@@ -133,6 +134,31 @@ fn wide_trees_agree_on_every_family() {
         checked.families >= 40 && checked.hits > 4_000,
         "{checked:?}"
     );
+}
+
+#[test]
+fn packets_of_every_width_agree_on_every_family() {
+    let builder = bvh_builder(ObjectSplit::FullSweep);
+    let mut hits = 0;
+    for (index, family) in families::all().iter().enumerate() {
+        let scene = family.scene(5, 200);
+        let bvh = builder.build(&scene).unwrap();
+        for (set, rays) in ray_sets(&scene, 6) {
+            let expected = Expected::new(&scene, rays).unwrap();
+            hits += expected.hits();
+            // All kinds of nodes, in turns.
+            let checked = match index % 3 {
+                0 => check_packets(&BihConverter::default().convert(&bvh).unwrap(), &expected),
+                1 => check_packets(&HTreeConverter::default().convert(&bvh).unwrap(), &expected),
+                _ => Ok(()),
+            };
+            let similar = DualSplitConverter::default().convert(&bvh).unwrap();
+            checked
+                .and_then(|()| check_packets(&similar, &expected))
+                .unwrap_or_else(|error| panic!("{}, {set}: {error}", family.name));
+        }
+    }
+    assert!(hits > 5_000, "{hits}");
 }
 
 #[test]
