@@ -21,6 +21,7 @@ use accel_dualsplit::glam::Vec3;
 use accel_dualsplit::{
     AccelerationStructure, BihConverter, Bvh, BvhBuilder, DualSplitBuilder, DualSplitConverter,
     HTreeConverter, ObjectSplit, Partitioning, RaySegment, TraversalCounters, Triangle,
+    WideDualSplitTree,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -83,6 +84,10 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
     print_counts("bih", &bih, &count(&bih, &rays), &bvh, &source);
     print_counts("h-tree", &h_tree, &count(&h_tree, &rays), &bvh, &source);
     print_counts("compact", &compact, &count(&compact, &rays), &bvh, &source);
+    let (wide_ms, wide) = timed(|| WideDualSplitTree::from_bvh(&bvh));
+    let wide = wide?;
+    print_counts("wide", &wide, &count(&wide, &rays), &bvh, &source);
+    println!("  convert: wide {wide_ms:.0} ms");
     let names = [
         "identical",
         "similar",
@@ -90,8 +95,9 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
         "BIH",
         "H-tree",
         "Compact BVH",
+        "wide",
     ];
-    let answers: [Answer<'_>; 7] = [
+    let answers: [Answer<'_>; 8] = [
         &|rays| answer(&bvh, rays),
         &|rays| answer(&identical, rays),
         &|rays| answer(&similar, rays),
@@ -99,6 +105,7 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
         &|rays| answer(&bih, rays),
         &|rays| answer(&h_tree, rays),
         &|rays| answer(&compact, rays),
+        &|rays| answer(&wide, rays),
     ];
     print_times(&names, &answers, &rays);
     Ok(())

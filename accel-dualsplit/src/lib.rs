@@ -37,14 +37,16 @@
 //! # Reading order
 //! [`DualSplitConverter`] (`convert`) chooses splitting axes (`splitting`) and
 //! carving nodes (`carving`, equation 1) and writes them (`packing`) in the words
-//! of `codec`, where the headers are tabulated; `traversal` walks them; `statistics`,
-//! `refit`, `validate` and `persistence` follow. `direct` builds without a BVH's say. `node_set` tells a dual-split tree, a BIH (`bih`) and an
-//! H-tree (`h_tree`) apart.
+//! of `codec`, where the headers are tabulated; `traversal` walks them; `packet`,
+//! `statistics`, `refit`, `validate` and `persistence` follow. `direct` builds without a
+//! BVH's say. `node_set` tells a dual-split tree, a BIH (`bih`) and an H-tree (`h_tree`)
+//! apart. `wide` is a tree of its own, with eight children a node
+//! ([`WideDualSplitTree`]).
 //!
 //! # Complexity
 //! Conversion takes time in proportion to the nodes of the BVH, on all cores. A
 //! ray visits about twice the nodes that it visits in the BVH and meets about
-//! two fifths of the planes.
+//! two fifths of the planes; in a wide tree, two fifths of the nodes.
 
 mod bih;
 mod codec;
@@ -53,12 +55,14 @@ mod direct;
 mod error;
 mod h_tree;
 mod node_set;
+mod packet;
 mod persistence;
 mod refit;
 mod statistics;
 mod traversal;
 mod tree;
 mod validate;
+mod wide;
 
 pub use bih::{Bih, BihConverter, BihNodes};
 pub use codec::{LEAF_BYTES, NODE_BYTES};
@@ -70,6 +74,7 @@ pub use node_set::{DualSplitNodes, NodeSet};
 pub use statistics::NodeStatistics;
 pub use tree::{DualSplitTree, PlaneTree};
 pub use validate::check_words;
+pub use wide::WideDualSplitTree;
 
 pub use accel_bvh::{Bvh, BvhBuilder, LeafRule, ObjectSplit};
 pub use accel_core::layout::{Indexed, LeafOrdered};

@@ -5,7 +5,7 @@ use accel_core::PreparedRay;
 use accel_core::statistics::{NodeKind, TraversalStatistics};
 
 use crate::codec::{CarvingPlanes, FirstWord, Header};
-use crate::traversal::{AxisTests, SideTests, planes_of, visit_two_planes};
+use crate::traversal::{AxisTests, NodePlace, SideTests, visit_two_planes};
 
 /// A set of nodes that a [`PlaneTree`](crate::PlaneTree) may consist of: those of
 /// dual-split trees, of a BIH or of an H-tree. Sealed.
@@ -47,17 +47,15 @@ impl Nodes for DualSplitNodes {
     fn carve<S: TraversalStatistics>(
         sides: &SideTests,
         _: &AxisTests,
-        words: &[u32],
+        place: &NodePlace<'_>,
         interval: (f32, f32),
-        _: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32) {
-        let node = FirstWord(words[0]);
+        let node = place.first_word();
         if node.carves() {
             visit_two_planes(statistics, NodeKind::Carving);
         }
-        let own = words.first_chunk().expect("padding follows the last node");
-        sides.cut(node, planes_of(own), interval)
+        sides.cut(node, place.planes(), interval)
     }
 }
 
@@ -78,16 +76,13 @@ pub trait Nodes: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Prepares a ray for carving nodes.
     fn carving_test(ray: &PreparedRay) -> Self::CarvingTest;
 
-    /// What a node that does not split, at the start of `words`, leaves of an
-    /// interval; `on_axis` is what it leaves if it carves on one axis. The visit of a
-    /// carving node is told to `statistics`; a plain leaf
-    /// leaves all.
+    /// What a node that does not split leaves of an interval. The visit of a carving
+    /// node is told to `statistics`; a plain leaf leaves all.
     fn carve<S: TraversalStatistics>(
         test: &Self::CarvingTest,
         axes: &AxisTests,
-        words: &[u32],
+        place: &NodePlace<'_>,
         interval: (f32, f32),
-        on_axis: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32);
 }

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::statistics::{NodeKind, TraversalStatistics, TreeOutline};
-use accel_core::{Aabb, AccelerationStructure, PacketTraversal, PreparedRay, Primitive};
+use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
 use crate::codec::{Header, Node, NodeWords};
 use crate::node_set::{DualSplitNodes, NodeSet};
@@ -104,5 +104,3 @@ impl<P: Primitive, N: NodeSet> AccelerationStructure for PlaneTree<P, N> {
         outline
     }
 }
-
-impl<P: Primitive, N: NodeSet, const L: usize> PacketTraversal<L> for PlaneTree<P, N> {}

@@ -4,6 +4,7 @@ use accel_bvh::ObjectSplit;
 use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
 use accel_dualsplit::{
     BihConverter, DualSplitBuilder, DualSplitConverter, HTreeConverter, Partitioning,
+    WideDualSplitTree,
 };
 
 use super::bvh::build_bvh;
@@ -42,6 +43,17 @@ pub(super) static ROWS: &[Row] = &[
                 ..DualSplitBuilder::default()
             };
             Ok(Box::new(builder.build_with(triangles, observer)?))
+        },
+    },
+    Row {
+        name: "dualsplit-wide",
+        is_headline: false,
+        about: "wide dual-split tree, 8 children a node, 4 planes a child, from bvh-sweep",
+        settings: "full sweep, SahUpTo(8), C_t = C_i = 1; largest children opened first",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let bvh = build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
+            Ok(Box::new(WideDualSplitTree::from_bvh(&bvh)?))
         },
     },
     Row {

@@ -6,6 +6,7 @@ use accel_bvh::{BvhBuilder, ObjectSplit};
 use accel_core::{
     BuildError, BuildObserver, InPackets, InvalidPrimitives, SurfaceAreaHeuristic, Triangle,
 };
+use accel_dualsplit::DualSplitConverter;
 use accel_kdtree::KdTreeBuilder;
 
 use super::{Row, Structure, bsp};
@@ -66,6 +67,18 @@ pub(super) static ROWS: &[Row] = &[
         settings: "as kdtree-sweep; coherent rays only",
         heuristic: kd_heuristic,
         build: build_kdtree::<16>,
+    },
+    Row {
+        name: "dualsplit-similar-packet",
+        is_headline: false,
+        about: "dualsplit-similar in packets of 8 rays, one vector of 8 lanes",
+        settings: "as dualsplit-similar; coherent rays only",
+        heuristic: SurfaceAreaHeuristic::default,
+        build: |triangles, invalid, observer| {
+            let bvh = super::bvh::build_bvh(ObjectSplit::FullSweep, triangles, invalid, observer)?;
+            let tree = DualSplitConverter::default().convert(&bvh)?;
+            Ok(Box::new(InPackets::<_, 8>(tree)))
+        },
     },
     Row {
         name: "bsp-packet",

@@ -37,6 +37,22 @@ pub trait Lanes:
     /// `number` of each lane's index, in order.
     fn from_fn(number: impl Fn(usize) -> f32) -> Self;
 
+    /// The numbers with these bits, in order, of the first words.
+    ///
+    /// # Panics
+    /// If there are fewer than lanes.
+    #[inline(always)]
+    fn from_bits(words: &[u32]) -> Self {
+        Self::from_fn(|lane| f32::from_bits(words[lane]))
+    }
+
+    /// For each lane the number of `table` whose index stands in its three bits of
+    /// `indices`, the first lane's lowest.
+    #[inline(always)]
+    fn pick(table: &[f32; 8], indices: u64) -> Self {
+        Self::from_fn(|lane| table[(indices >> (3 * lane)) as usize & 0b111])
+    }
+
     /// The lanes in memory, in order.
     fn lanes(&self) -> &[f32];
 

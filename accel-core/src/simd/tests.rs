@@ -46,6 +46,19 @@ fn agrees_with_scalars<L: Lanes>() {
         }
     }
     assert_eq!(L::ALL.count_ones() as usize, L::COUNT);
+    let words: Vec<u32> = (0..L::COUNT)
+        .map(|lane| SPECIAL[lane % 8].to_bits())
+        .collect();
+    same(
+        L::from_bits(&words),
+        spread(SPECIAL[7], 0),
+        L::splat(0.0),
+        |a, _| a,
+    );
+    let indices = (0..L::COUNT).fold(0, |all, lane| all | (lane as u64 * 5 % 8) << (3 * lane));
+    let picked = L::pick(&SPECIAL, indices);
+    let expected = L::from_fn(|lane| SPECIAL[lane * 5 % 8]);
+    same(picked, expected, expected, |a, _| a);
     let counted = L::from_fn(|lane| lane as f32);
     assert!((0..L::COUNT).all(|lane| counted.lanes()[lane] == lane as f32));
 }

@@ -75,6 +75,23 @@ impl Lanes for F32x8 {
         Self(unsafe { intel::_mm256_setr_ps(a, b, c, d, e, f, g, h) })
     }
     #[inline(always)]
+    fn from_bits(words: &[u32]) -> Self {
+        let words = &words[..8];
+        // SAFETY: as above, and the slice has that many words.
+        Self(unsafe { intel::_mm256_loadu_ps(words.as_ptr().cast()) })
+    }
+    #[inline(always)]
+    fn pick(table: &[f32; 8], indices: u64) -> Self {
+        // SAFETY: as above, and the table has eight numbers. The instruction looks
+        // only at the three lowest bits of each index.
+        Self(unsafe {
+            let shifts = intel::_mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+            let indices =
+                intel::_mm256_srlv_epi32(intel::_mm256_set1_epi32(indices as i32), shifts);
+            intel::_mm256_permutevar8x32_ps(intel::_mm256_loadu_ps(table.as_ptr()), indices)
+        })
+    }
+    #[inline(always)]
     fn lanes(&self) -> &[f32] {
         // SAFETY: a register in memory is its lanes, side by side.
         unsafe { std::slice::from_raw_parts((&raw const *self).cast(), 8) }

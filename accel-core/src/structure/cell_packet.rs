@@ -4,6 +4,7 @@
 //! ```text
 //! interval := each ray inside the root's cell; a ray is active while its is not empty
 //! loop:
+//!     one child:  cut what is empty off each ray's interval, go on with the child
 //!     inner:  entry, exit := where each ray may cross the plane
 //!             near child: each ray's interval up to exit
 //!             far child:  each ray's interval from entry on
@@ -45,6 +46,20 @@ pub trait CellTree: AccelerationStructure {
 
     /// Whether `node` is a leaf.
     fn is_leaf(&self, node: u32) -> bool;
+
+    /// Passes nodes with one child that cut empty space off the rays, until a node that
+    /// divides, a leaf, or no ray is active any more. A tree without such nodes leaves
+    /// this as it is.
+    #[inline(always)]
+    fn pass<L: Lanes, S: TraversalStatistics>(
+        &self,
+        vector: &Self::Vector<L>,
+        visit: CellVisit<L>,
+        statistics: &mut S,
+    ) -> CellVisit<L> {
+        let _ = (vector, statistics);
+        visit
+    }
 
     /// How the plane of an inner node divides the rays.
     fn divide<L: Lanes, S: TraversalStatistics>(
@@ -110,8 +125,9 @@ pub struct RayPart {
 }
 
 impl<L: Lanes> CellVisit<L> {
+    /// The rays whose parts are not empty are active.
     #[inline(always)]
-    fn new(node: u32, near: L, far: L) -> Self {
+    pub fn new(node: u32, near: L, far: L) -> Self {
         Self {
             node,
             active: near.le_mask(far),
@@ -164,7 +180,10 @@ fn trace_vector<L: Lanes, A: CellTree, Q: Query, S: TraversalStatistics>(
     };
     let mut next = vector.root(statistics);
     while let Some(visit) = next {
-        next = if tree.is_leaf(visit.node) {
+        let visit = tree.pass(&prepared, visit, statistics);
+        next = if visit.active == 0 {
+            None
+        } else if tree.is_leaf(visit.node) {
             vector.leaf(&visit, statistics);
             None
         } else if visit.active.count_ones() <= ALONE {
@@ -205,7 +224,7 @@ impl<L: Lanes, A: CellTree, Q: Query> Vector<'_, '_, L, A, Q> {
     }
 
     /// The child to visit next; the other, if rays are active there too, is put
-    /// off. Rounding never leaves an active ray without a child.
+    /// off. Where cells fill space, rounding never leaves an active ray without a child.
     #[inline(always)]
     fn inner<S: TraversalStatistics>(
         &self,

@@ -26,7 +26,7 @@ use accel_core::{BuildBudget, BuildError, PreparedRay, Primitive};
 use crate::codec::{CarvingPlanes, FirstWord, Header};
 use crate::convert::{CarvingRules, NodeCosts, Partitioning};
 use crate::node_set::{NodeSet, Nodes};
-use crate::traversal::{AxisTests, visit_two_planes};
+use crate::traversal::{AxisTests, NodePlace, visit_two_planes};
 use crate::tree::PlaneTree;
 
 /// A bounding interval hierarchy. Made from a BVH by a [`BihConverter`].
@@ -115,16 +115,16 @@ impl Nodes for BihNodes {
     #[inline(always)]
     fn carve<S: TraversalStatistics>(
         (): &(),
-        _: &AxisTests,
-        words: &[u32],
+        axes: &AxisTests,
+        place: &NodePlace<'_>,
         interval: (f32, f32),
-        on_axis: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32) {
-        if FirstWord(words[0]).is_plain_leaf() {
+        let node = place.first_word();
+        if node.is_plain_leaf() {
             return interval;
         }
         visit_two_planes(statistics, NodeKind::Carving);
-        on_axis
+        axes.of(node).cut(place.planes(), interval)
     }
 }

@@ -88,10 +88,7 @@ impl FirstWord {
 
     /// Asked of dual-axis nodes.
     pub(super) fn dual_planes(self) -> [BoxPlane; 2] {
-        self.dual_plane_indices().map(|index| BoxPlane {
-            axis: Axis::ALL[index / 2],
-            is_high: index % 2 == 1,
-        })
+        self.dual_plane_indices().map(BoxPlane::from_index)
     }
 
     /// Asked of bounding nodes.
@@ -99,6 +96,30 @@ impl FirstWord {
     pub(crate) fn bounded_axes(self) -> BoundedAxes {
         let code = self.0 >> OFFSET_BITS;
         BoundedAxes::ALL[(code >> 1 & 0b10 | code & 1) as usize]
+    }
+}
+
+/// Some of the headers of nodes on one axis, a bit each.
+#[derive(Clone, Copy, Debug)]
+pub struct HeaderSet(u32);
+
+impl HeaderSet {
+    /// Those of nodes on this axis.
+    pub(crate) fn on(axis: Axis) -> Self {
+        let of_kinds = 0b1111 << (4 * axis.index());
+        Self(of_kinds | of_kinds << LEAF)
+    }
+
+    /// Whether it holds the header of a node on one axis.
+    #[inline(always)]
+    pub(crate) fn holds(self, node: FirstWord) -> bool {
+        self.0 >> (node.0 >> OFFSET_BITS & (SEVERAL_AXES - 1)) & 1 != 0
+    }
+}
+
+impl FromIterator<Self> for HeaderSet {
+    fn from_iter<T: IntoIterator<Item = Self>>(sets: T) -> Self {
+        Self(sets.into_iter().fold(0, |all, set| all | set.0))
     }
 }
 

@@ -22,8 +22,16 @@ impl BoxPlane {
         2 * self.axis.index() + usize::from(self.is_high)
     }
 
+    /// The plane with this [`index`](Self::index).
+    pub(crate) fn from_index(index: usize) -> Self {
+        Self {
+            axis: Axis::ALL[index / 2],
+            is_high: index % 2 == 1,
+        }
+    }
+
     /// Where the plane is on a box.
-    fn of(self, bounds: &Aabb) -> f32 {
+    pub(crate) fn of(self, bounds: &Aabb) -> f32 {
         self.axis
             .of(if self.is_high { bounds.max } else { bounds.min })
     }
@@ -79,6 +87,19 @@ impl CarvingPlanes {
             Self::Single(_) | Self::Dual(..) => 2,
             Self::Bounding(bounded) => 2 * bounded.axes().len(),
         }
+    }
+
+    /// Which planes of a box they are, in the order in which they stand.
+    #[inline(always)]
+    pub(crate) fn box_planes(self) -> impl Iterator<Item = BoxPlane> {
+        let pair = |axis| [true, false].map(|is_high| BoxPlane { axis, is_high });
+        let (one, axes): (_, &[Axis]) = match self {
+            Self::Single(axis) => (Some(pair(axis)), &[]),
+            Self::Dual(a, b) => (Some([a, b]), &[]),
+            Self::Bounding(bounded) => (None, bounded.axes()),
+        };
+        let several = axes.iter().map(move |&axis| pair(axis));
+        one.into_iter().chain(several).flatten()
     }
 
     /// The positions that carve to `bounds`: as many as there are planes, then zeros.

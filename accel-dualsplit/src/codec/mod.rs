@@ -41,7 +41,7 @@ mod header;
 mod node;
 mod words;
 
-pub(crate) use first_word::FirstWord;
+pub(crate) use first_word::{FirstWord, HeaderSet};
 pub(crate) use header::{BoundedAxes, BoxPlane, CarvingPlanes, Header};
 pub(crate) use node::Node;
 pub(crate) use words::{MAX_WORDS, NodeWords};

@@ -172,6 +172,10 @@ impl DualSplitBuilder {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
+    use accel_core::glam::Vec3;
+    use accel_core::statistics::{NodeKind, TreeOutline};
     use accel_core::testing::families;
     use accel_core::{AccelerationStructure, Triangle};
 
@@ -196,6 +200,34 @@ mod tests {
         for tree in [one, many] {
             tree.validate().unwrap();
         }
+    }
+
+    /// A BVH of bounding boxes over the same subsets has, at each of them, the box of
+    /// what it holds. Some regions of the tree are larger, deliberately.
+    #[test]
+    fn some_regions_are_in_no_bvh_of_bounding_boxes_over_the_same_subsets() {
+        let builder = DualSplitBuilder::default();
+        let tree = builder.build(&scene()).unwrap();
+        let bvh = builder.partition(&scene(), &()).unwrap();
+        let identical = DualSplitConverter {
+            partitioning: Partitioning::Identical,
+            ..DualSplitConverter::default()
+        };
+        let boxes = regions(&bvh.outline(), NodeKind::Inner);
+        let of_identical = identical.convert(&bvh).unwrap().outline();
+        assert!(regions(&of_identical, NodeKind::Splitting) == boxes);
+        let own = regions(&tree.outline(), NodeKind::Splitting);
+        let others = own.difference(&boxes).count();
+        assert!(others > own.len() / 4, "{others} of {}", own.len());
+    }
+
+    /// Of nodes of one kind.
+    fn regions(outline: &TreeOutline, kind: NodeKind) -> BTreeSet<[[u32; 3]; 2]> {
+        let bits = |point: Vec3| point.to_array().map(f32::to_bits);
+        let nodes = outline.nodes.iter().filter(|node| node.kind == kind);
+        nodes
+            .map(|node| [node.bounds.min, node.bounds.max].map(bits))
+            .collect()
     }
 
     #[test]

@@ -25,7 +25,7 @@ use accel_core::{BuildBudget, BuildError, PreparedRay, Primitive};
 use crate::codec::{CarvingPlanes, FirstWord, Header};
 use crate::convert::{CarvingRules, NodeCosts, Partitioning};
 use crate::node_set::{NodeSet, Nodes};
-use crate::traversal::{AxisTests, visit_two_planes};
+use crate::traversal::{AxisTests, NodePlace, visit_two_planes};
 use crate::tree::PlaneTree;
 
 /// An H-tree. Made from a BVH by an [`HTreeConverter`].
@@ -129,18 +129,17 @@ impl Nodes for HTreeNodes {
     fn carve<S: TraversalStatistics>(
         (): &(),
         axes: &AxisTests,
-        words: &[u32],
+        place: &NodePlace<'_>,
         mut interval: (f32, f32),
-        on_axis: (f32, f32),
         statistics: &mut S,
     ) -> (f32, f32) {
-        let node = FirstWord(words[0]);
+        let node = place.first_word();
         if node.is_on_several_axes() {
             let bounded = node.bounded_axes().axes();
             let planes = 2 * bounded.len() as u32;
             statistics.visit_node(NodeKind::Carving, 4 * (1 + planes));
             statistics.test_planes(planes);
-            let (pairs, _) = words[1..].as_chunks();
+            let (pairs, _) = place.planes_and_rest().as_chunks();
             for (&axis, pair) in bounded.iter().zip(pairs) {
                 interval = axes.on(axis).cut(pair, interval);
             }
@@ -150,6 +149,6 @@ impl Nodes for HTreeNodes {
             return interval;
         }
         visit_two_planes(statistics, NodeKind::Carving);
-        on_axis
+        axes.of(node).cut(place.planes(), interval)
     }
 }

@@ -4,11 +4,16 @@ use accel_core::PreparedRay;
 use accel_core::geometry::Axis;
 use accel_core::ray::{max_or_keep, min_or_keep};
 
-use crate::codec::FirstWord;
+use crate::codec::{FirstWord, HeaderSet};
 
 /// What meeting planes takes of a ray, for each axis.
 #[derive(Clone, Copy)]
-pub struct AxisTests([AxisTest; 4]);
+pub struct AxisTests {
+    by_axis: [AxisTest; 4],
+    /// The headers of nodes on an axis that the ray goes down. Asked in a register,
+    /// for where to go next is what everything waits for.
+    down: HeaderSet,
+}
 
 #[derive(Clone, Copy)]
 pub(crate) struct AxisTest {
@@ -30,19 +35,31 @@ impl AxisTests {
             exit: u32::from(ray.is_negative(axis)),
         };
         let [x, y, z] = Axis::ALL.map(test);
-        // One more, so that no index of two bits is out of range.
-        Self([x, y, z, z])
+        let down = Axis::ALL.into_iter().filter(|&axis| ray.is_negative(axis));
+        Self {
+            // One more, so that no index of two bits is out of range.
+            by_axis: [x, y, z, z],
+            down: down.map(HeaderSet::on).collect(),
+        }
     }
 
     /// For the axis of a splitting or single-axis carving node.
     #[inline(always)]
     pub(crate) fn of(&self, node: FirstWord) -> &AxisTest {
-        &self.0[node.axis_index()]
+        &self.by_axis[node.axis_index()]
     }
 
     #[inline(always)]
     pub(crate) fn on(&self, axis: Axis) -> &AxisTest {
-        &self.0[axis.index()]
+        &self.by_axis[axis.index()]
+    }
+
+    /// Of the two children of a splitting node, the first of this many words, the one
+    /// that the ray comes to first, then the other one.
+    #[inline(always)]
+    pub(crate) fn in_order(&self, node: FirstWord, first: u32, words: u32) -> [u32; 2] {
+        let mask = u32::from(self.down.holds(node)).wrapping_neg();
+        [first + (words & mask), first + (words & !mask)]
     }
 }
 
@@ -69,19 +86,12 @@ impl AxisTest {
         let [exit, entry] = self.exit_and_entry(planes);
         (max_or_keep(near, entry), min_or_keep(far, exit))
     }
-
-    /// Of two children, the first of this many words, the one that the ray comes
-    /// to first, then the other one.
-    #[inline(always)]
-    pub(crate) fn in_order(&self, first: u32, words: u32) -> [u32; 2] {
-        let mask = self.exit.wrapping_neg();
-        [first + (words & mask), first + (words & !mask)]
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::codec::Header;
     use crate::traversal::side_test::tests::{directions, origins};
     use accel_core::{Aabb, RaySegment};
 
@@ -109,10 +119,25 @@ mod tests {
 
     #[test]
     fn the_first_child_comes_first_up_the_axis_and_last_down_it() {
-        for (direction, order) in [(1.0, [7, 10]), (-1.0, [10, 7])] {
-            let ray = RaySegment::new([0.0; 3], [direction, 0.0, 0.0]);
-            let tests = AxisTests::new(&PreparedRay::new(&ray).unwrap());
-            assert_eq!(tests.on(Axis::X).in_order(7, 3), order);
+        for axis in Axis::ALL {
+            for (component, order) in [(1.0, [7, 10]), (-1.0, [10, 7])] {
+                let mut direction = [-component; 3];
+                direction[axis.index()] = component;
+                let ray = RaySegment::new([0.0; 3], direction);
+                let tests = AxisTests::new(&PreparedRay::new(&ray).unwrap());
+                for first_child_words in [1, 3, 5, 7] {
+                    let header = Header::Splitting {
+                        axis,
+                        first_child_words,
+                    };
+                    let node = FirstWord(header.encode(3));
+                    assert_eq!(
+                        tests.in_order(node, 7, 3),
+                        order,
+                        "{header:?} {direction:?}"
+                    );
+                }
+            }
         }
     }
 }

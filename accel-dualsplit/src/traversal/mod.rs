@@ -24,14 +24,16 @@
 mod axis_test;
 mod side_test;
 
+use std::ops::ControlFlow;
+
 use accel_core::layout::LeafStorage;
 use accel_core::query::Query;
 use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::{RayPart, TraversalStack};
 use accel_core::{PreparedRay, Primitive};
 
-use crate::codec::{FirstWord, LEAF_BYTES, NODE_BYTES, NODE_WORDS};
+use crate::codec::{FirstWord, LEAF_BYTES, LEAF_WORDS, NODE_BYTES, NODE_WORDS};
 use crate::node_set::NodeSet;
 use crate::tree::PlaneTree;
 
@@ -54,29 +56,43 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
     let Some(bounds) = tree.bounds else { return };
     statistics.test_boxes(1);
     let whole = ray.slab(&bounds);
-    let mut near = max_or_keep(ray.t_min(), whole.near);
-    let mut far = min_or_keep(query.t_max(), whole.far);
+    let near = max_or_keep(ray.t_min(), whole.near);
+    let far = min_or_keep(query.t_max(), whole.far);
     // Neither is NaN: both began as numbers and kept them.
-    if near > far {
-        return;
+    if near <= far {
+        let root = RayPart { node: 0, near, far };
+        let _ = traverse_below(tree, root, ray, query, statistics);
     }
+}
+
+/// Traverses the part of the tree below a node, inside of whose region the ray has this
+/// part; breaks when the query does.
+#[inline]
+pub(crate) fn traverse_below<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistics>(
+    tree: &PlaneTree<P, N>,
+    part: RayPart,
+    ray: &PreparedRay,
+    query: &mut Q,
+    statistics: &mut S,
+) -> ControlFlow<()> {
+    let RayPart {
+        node: mut position,
+        mut near,
+        mut far,
+    } = part;
     let words = tree.words.padded();
     let axes = AxisTests::new(ray);
     let carving = N::carving_test(ray);
     let mut stack: TraversalStack<PutOff> = TraversalStack::new();
-    let mut position = 0_u32;
     loop {
-        let rest = &words[position as usize..];
-        let own: &[u32; NODE_WORDS] = rest.first_chunk().expect("padding follows the last node");
-        let node = FirstWord(own[0]);
-        // The same for a splitting node and one that carves on one axis: computed
-        // before it is known which of them this is.
-        let axis = axes.of(node);
-        let (farther_near, nearer_far) = axis.cut(planes_of(own), (near, far));
+        let place = NodePlace::new(words, position);
+        let node = place.first_word();
         if node.splits() {
             visit_two_planes(statistics, NodeKind::Splitting);
+            let cut = axes.of(node).cut(place.planes(), (near, far));
+            let (farther_near, nearer_far) = cut;
             let first = position + node.offset();
-            let [closer, farther] = axis.in_order(first, N::first_child_words(node));
+            let [closer, farther] = axes.in_order(node, first, N::first_child_words(node));
             let meets_farther = farther_near <= far;
             if near <= nearer_far {
                 // Whether both are met is hard to predict, and the way on is the
@@ -97,24 +113,18 @@ pub(crate) fn traverse<P: Primitive, N: NodeSet, Q: Query, S: TraversalStatistic
             if !node.carves() {
                 statistics.visit_node(NodeKind::Leaf, LEAF_BYTES as u32);
             }
-            let on_axis = (farther_near, nearer_far);
-            (near, far) = N::carve(&carving, &axes, rest, (near, far), on_axis, statistics);
+            (near, far) = N::carve(&carving, &axes, &place, (near, far), statistics);
             if near <= far {
                 if !node.is_leaf() {
                     position += node.offset();
                     continue;
                 }
                 let leaves = tree.stored.leaves();
-                if leaves
-                    .intersect_leaf(node.offset(), ray, query, statistics)
-                    .is_break()
-                {
-                    return;
-                }
+                leaves.intersect_leaf(node.offset(), ray, query, statistics)?;
             }
         }
         let Some(entry) = stack.pop_entry_within(query.t_max()) else {
-            return;
+            return ControlFlow::Continue(());
         };
         position = entry.node.position;
         near = entry.near;
@@ -129,9 +139,42 @@ pub(crate) fn visit_two_planes<S: TraversalStatistics>(statistics: &mut S, kind:
     statistics.test_planes(2);
 }
 
-/// The planes of a node that has two, from its words. Of a leaf they are other words
-/// of the tree, or padding.
-#[inline(always)]
-pub(crate) fn planes_of(own: &[u32; NODE_WORDS]) -> &[u32; 2] {
-    own.last_chunk().expect("two of three words")
+/// A node where it lies among the words of a tree.
+#[derive(Clone, Copy)]
+pub struct NodePlace<'a> {
+    words: &'a [u32],
+    position: usize,
+    /// Of a leaf without planes, the others are other words of the tree, or padding.
+    own: &'a [u32; NODE_WORDS],
+}
+
+impl<'a> NodePlace<'a> {
+    /// At the position of a node in words that padding follows.
+    #[inline(always)]
+    pub(crate) fn new(words: &'a [u32], position: u32) -> Self {
+        let position = position as usize;
+        let own = words[position..position + NODE_WORDS].first_chunk();
+        Self {
+            words,
+            position,
+            own: own.expect("the slice has that length"),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn first_word(&self) -> FirstWord {
+        FirstWord(self.own[0])
+    }
+
+    /// The planes of a node that has two.
+    #[inline(always)]
+    pub(crate) fn planes(&self) -> &'a [u32; 2] {
+        self.own.last_chunk().expect("two of three words")
+    }
+
+    /// The planes of a node that may have more, and what follows them.
+    #[inline(always)]
+    pub(crate) fn planes_and_rest(&self) -> &'a [u32] {
+        &self.words[self.position + LEAF_WORDS..]
+    }
 }

@@ -2,7 +2,7 @@
 
 use accel_core::PreparedRay;
 use accel_core::geometry::Axis;
-use accel_core::ray::{max_or_keep, min_or_keep};
+use accel_core::simd::F32x4;
 
 use crate::codec::FirstWord;
 
@@ -17,43 +17,42 @@ pub struct SideTests([SideTest; 8]);
 
 /// One plane of a box: a ray enters through it or leaves through it. The
 /// reciprocal for what it does not do is NaN, which constrains nothing.
+///
+/// An interval is kept as its near end and its far end negated, so that one maximum
+/// cuts both.
 #[derive(Clone, Copy)]
 #[repr(align(16))]
 struct SideTest {
-    origin: f32,
     near_reciprocal: f32,
-    far_reciprocal: f32,
+    negated_far_reciprocal: f32,
+    origin: f32,
 }
 
 impl SideTests {
     #[inline]
     pub(crate) fn new(ray: &PreparedRay) -> Self {
         let none = SideTest {
-            origin: 0.0,
             near_reciprocal: f32::NAN,
-            far_reciprocal: f32::NAN,
+            negated_far_reciprocal: f32::NAN,
+            origin: 0.0,
         };
         let mut sides = [none; 8];
         for axis in Axis::ALL {
             let origin = axis.of(ray.origin());
-            let entry = SideTest {
-                origin,
+            // Signs select addresses: a branch on them would be mispredicted for
+            // every other ray.
+            let is_negative = usize::from(ray.is_negative(axis));
+            let low = 2 * axis.index();
+            sides[low + is_negative] = SideTest {
                 near_reciprocal: axis.of(ray.near_reciprocal()),
-                ..none
-            };
-            let exit = SideTest {
                 origin,
-                far_reciprocal: axis.of(ray.far_reciprocal()),
                 ..none
             };
-            let is_negative = ray.is_negative(axis);
-            let (low, high) = if is_negative {
-                (exit, entry)
-            } else {
-                (entry, exit)
+            sides[low + (is_negative ^ 1)] = SideTest {
+                negated_far_reciprocal: -axis.of(ray.far_reciprocal()),
+                origin,
+                ..none
             };
-            sides[2 * axis.index()] = low;
-            sides[2 * axis.index() + 1] = high;
         }
         Self(sides)
     }
@@ -68,15 +67,23 @@ impl SideTests {
         (near, far): (f32, f32),
     ) -> (f32, f32) {
         let [a, b] = node.carved_planes().map(|index| &self.0[index & 7]);
-        let [to_a, to_b] = [
-            f32::from_bits(planes[0]) - a.origin,
-            f32::from_bits(planes[1]) - b.origin,
-        ];
-        let near = max_or_keep(near, to_a * a.near_reciprocal);
-        let near = max_or_keep(near, to_b * b.near_reciprocal);
-        let far = min_or_keep(far, to_a * a.far_reciprocal);
-        let far = min_or_keep(far, to_b * b.far_reciprocal);
-        (near, far)
+        let [first, second] = planes.map(f32::from_bits);
+        let interval = F32x4::new(near, -far, 0.0, 0.0);
+        let interval = interval
+            .max_or_keep(a.meet(first))
+            .max_or_keep(b.meet(second));
+        let [near, negated_far] = interval.first_two();
+        (near, -negated_far)
+    }
+}
+
+impl SideTest {
+    /// Where the ray enters through the plane and, negated, where it leaves through
+    /// it, NaN for what it does not do.
+    #[inline(always)]
+    fn meet(&self, plane: f32) -> F32x4 {
+        let reciprocals = F32x4::new(self.near_reciprocal, self.negated_far_reciprocal, 0.0, 0.0);
+        F32x4::splat(plane - self.origin) * reciprocals
     }
 }
 

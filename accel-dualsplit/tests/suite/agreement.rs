@@ -4,11 +4,12 @@
 use accel_core::BruteForce;
 use accel_core::testing::agreement::Expected;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
+use accel_core::testing::packets::{check_packets, ray_sets};
 use accel_core::testing::{families, rays, strategy};
 use accel_dualsplit::{
-    AccelerationStructure, BuildError, Bvh, BvhBuilder, CarvingCosts, DualSplitBuilder,
-    DualSplitConverter, DualSplitTree, InvalidPrimitives, LeafRule, ObjectSplit, Partitioning,
-    Sphere, Triangle,
+    AccelerationStructure, BihConverter, BuildError, Bvh, BvhBuilder, CarvingCosts,
+    DualSplitBuilder, DualSplitConverter, DualSplitTree, HTreeConverter, InvalidPrimitives,
+    LeafRule, ObjectSplit, Partitioning, Sphere, Triangle, WideDualSplitTree,
 };
 use accel_sbvh::SbvhBuilder;
 use proptest::prelude::*;
@@ -108,6 +109,59 @@ fn directly_built_trees_agree_on_every_family() {
 }
 
 #[test]
+fn wide_trees_agree_on_every_family() {
+    let effort = Effort { seeds: 2, ..PART };
+    let builder = bvh_builder(ObjectSplit::FullSweep);
+    let split = SbvhBuilder {
+        alpha: 0.0,
+        invalid_primitives: InvalidPrimitives::Skip,
+        ..SbvhBuilder::default()
+    };
+    let build = |triangles: &[Triangle]| {
+        let bvhs = [
+            builder.build(triangles)?,
+            split.build_with(triangles, &())?.0,
+        ];
+        let trees = bvhs.iter().map(WideDualSplitTree::from_bvh);
+        let trees = trees.collect::<Result<Vec<_>, _>>()?;
+        for tree in &trees {
+            tree.validate().unwrap_or_else(|error| panic!("{error}"));
+        }
+        Ok::<_, BuildError>(trees)
+    };
+    let checked = check_families(&effort, build).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        checked.families >= 40 && checked.hits > 4_000,
+        "{checked:?}"
+    );
+}
+
+#[test]
+fn packets_of_every_width_agree_on_every_family() {
+    let builder = bvh_builder(ObjectSplit::FullSweep);
+    let mut hits = 0;
+    for (index, family) in families::all().iter().enumerate() {
+        let scene = family.scene(5, 200);
+        let bvh = builder.build(&scene).unwrap();
+        for (set, rays) in ray_sets(&scene, 6) {
+            let expected = Expected::new(&scene, rays).unwrap();
+            hits += expected.hits();
+            // All kinds of nodes, in turns.
+            let checked = match index % 3 {
+                0 => check_packets(&BihConverter::default().convert(&bvh).unwrap(), &expected),
+                1 => check_packets(&HTreeConverter::default().convert(&bvh).unwrap(), &expected),
+                _ => Ok(()),
+            };
+            let similar = DualSplitConverter::default().convert(&bvh).unwrap();
+            checked
+                .and_then(|()| check_packets(&similar, &expected))
+                .unwrap_or_else(|error| panic!("{}, {set}: {error}", family.name));
+        }
+    }
+    assert!(hits > 5_000, "{hits}");
+}
+
+#[test]
 fn spheres_agree_with_brute_force() {
     for seed in 0..5 {
         let boxes = families::find("soup-mixed-sizes").unwrap().scene(seed, 400);
@@ -117,6 +171,10 @@ fn spheres_agree_with_brute_force() {
             .collect();
         let oracle = BruteForce::new(&spheres).unwrap();
         let bvh = BvhBuilder::default().build(&spheres).unwrap();
+        let wide = WideDualSplitTree::from_bvh(&bvh).unwrap();
+        for ray in rays::mixed(&boxes, seed, 400) {
+            assert_eq!(wide.closest_hit(&ray), oracle.closest_hit(&ray), "{ray:?}");
+        }
         for partitioning in BOTH {
             let converter = DualSplitConverter {
                 partitioning,
@@ -159,6 +217,10 @@ proptest! {
         let expected = Expected::new(&scene.triangles, rays).unwrap();
         if let Some(first) = expected.disagreements(&tree).first() {
             prop_assert!(false, "{first}");
+        }
+        let wide = WideDualSplitTree::from_bvh(&bvh).unwrap();
+        if let Some(first) = expected.disagreements(&wide).first() {
+            prop_assert!(false, "wide: {first}");
         }
     }
 }
