@@ -78,7 +78,7 @@ impl<P: Primitive, L: LeafStorage<P>> Collapse<'_, P, L> {
                 let pointer = Pointer::new(Target::Inner(index as u32))?;
                 self.nodes[parent].set_child(place, pointer);
             }
-            let children = self.children(node.handle);
+            let children = self.bvh.opened(node.handle, WIDTH);
             let encoded = self.encode(&children)?;
             self.nodes.push(encoded);
             let depth = node.depth + 1;
@@ -93,36 +93,6 @@ impl<P: Primitive, L: LeafStorage<P>> Collapse<'_, P, L> {
             ));
         }
         Ok((Pointer::new(Target::Inner(0))?, bounds))
-    }
-
-    /// Eight descendants that together hold what `handle` holds, fewer if there
-    /// are no more: of those found, the one with the largest box is replaced by
-    /// its children.
-    fn children(&self, handle: NodeHandle) -> Vec<Child> {
-        let mut children = Vec::with_capacity(WIDTH);
-        children.extend(self.divided(handle));
-        while children.len() < WIDTH {
-            let inner = children
-                .iter()
-                .enumerate()
-                .filter(|(_, (handle, _))| !handle.is_leaf());
-            let area = |child: &(usize, &Child)| child.1.1.half_area();
-            let Some((largest, _)) = inner.max_by(|a, b| area(a).total_cmp(&area(b))) else {
-                break;
-            };
-            let (handle, _) = children[largest];
-            children.splice(largest..=largest, self.divided(handle));
-        }
-        children
-    }
-
-    /// The children of an inner node; none of a leaf.
-    fn divided(&self, handle: NodeHandle) -> impl Iterator<Item = Child> + use<P, L> {
-        let children = match self.bvh.node(handle) {
-            BvhNode::Inner { bounds, children } => Some(children.into_iter().zip(bounds)),
-            BvhNode::Leaf(_) => None,
-        };
-        children.into_iter().flatten()
     }
 
     /// The node of these children; inner ones are named when they are written.

@@ -52,26 +52,6 @@ impl<N: Copy> TraversalStack<N> {
         self.entries.truncate(kept);
     }
 
-    /// Orders the last `count` nodes, those entered sooner behind those entered later:
-    /// the nearest is taken first.
-    ///
-    /// # Panics
-    /// If fewer were put off.
-    #[inline]
-    pub fn sort_last(&mut self, count: usize) {
-        let first = self.entries.len() - count;
-        let last = &mut self.entries[first..];
-        for end in 1..last.len() {
-            let entry = last[end];
-            let mut place = end;
-            while place > 0 && last[place - 1].near < entry.near {
-                last[place] = last[place - 1];
-                place -= 1;
-            }
-            last[place] = entry;
-        }
-    }
-
     /// The node put off last that the ray enters no later than `t_max`; those
     /// entered later are dropped. Strictly later: a hit there could still tie.
     #[inline]
@@ -154,10 +134,16 @@ impl<N: Copy> WideStack<N> {
     /// As [`TraversalStack::pop_within`].
     #[inline(always)]
     pub fn pop_within(&mut self, t_max: f32) -> Option<N> {
+        self.pop_entry_within(t_max).map(|entry| entry.node)
+    }
+
+    /// As [`TraversalStack::pop_entry_within`].
+    #[inline(always)]
+    pub fn pop_entry_within(&mut self, t_max: f32) -> Option<StackEntry<N>> {
         loop {
             let entry = self.entries.pop()?;
             if entry.near <= t_max {
-                return Some(entry.node);
+                return Some(entry);
             }
         }
     }
@@ -229,12 +215,13 @@ mod tests {
     }
 
     #[test]
-    fn the_last_are_sorted_and_the_others_stay() {
-        let mut stack = TraversalStack::new();
-        for (node, near) in [(0, 0.5), (1, 2.0), (2, 1.0), (3, 3.0), (4, 1.5)] {
-            stack.push(node, near);
+    fn siblings_are_taken_from_the_nearest_to_the_farthest() {
+        let mut stack = WideStack::new();
+        stack.push(0, 0.5);
+        let bottom = stack.len();
+        for (node, near) in [(1, 2.0), (2, 1.0), (3, 3.0), (4, 1.5)] {
+            stack.push_sorted(node, near, bottom);
         }
-        stack.sort_last(4);
         let order: Vec<_> = std::iter::from_fn(|| stack.pop_within(9.0)).collect();
         assert_eq!(order, [2, 4, 1, 3, 0]);
     }

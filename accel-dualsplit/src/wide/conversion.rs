@@ -2,15 +2,13 @@
 //!
 //! ```text
 //! convert(inner node of the BVH, region that is left of space):
-//!     children := its two children
-//!     while there are fewer than eight: replace the inner one with the largest box
-//!         by its two children
+//!     children := it opened to eight, as for a wide BVH
 //!     for each child: the at most four planes of its box that leave least of the region
 //!     convert the children, each in the region that its planes leave
 //! ```
 
 use accel_bvh::{Bvh, BvhNode, NodeHandle};
-use accel_core::{Aabb, AccelerationStructure, BuildBudget, BuildError, Primitive};
+use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
 use super::WideDualSplitTree;
 use super::node::{
@@ -40,22 +38,11 @@ impl<P: Primitive> WideDualSplitTree<P> {
     }
 }
 
-/// A node of the BVH that becomes a child.
-#[derive(Clone, Copy)]
-struct Child {
-    handle: NodeHandle,
-    bounds: Aabb,
-    /// Edges of the BVH from its root.
-    level: u32,
-}
-
-/// A child whose node is still to be written.
+/// A node of the BVH whose own is still to be written.
 struct Pending {
-    child: Child,
+    handle: NodeHandle,
     /// What is left of space.
     region: Aabb,
-    /// How many nodes may still be put off on a way down from here.
-    room: u32,
     /// The word that says where it is; `None` for the root.
     pointer: Option<usize>,
 }
@@ -68,17 +55,12 @@ fn convert<P: Primitive>(
 ) -> Result<WidePointer, BuildError> {
     let mut first = None;
     let mut pending = vec![Pending {
-        child: Child {
-            handle: root,
-            bounds,
-            level: 0,
-        },
+        handle: root,
         region: bounds,
-        room: BuildBudget::DEEPEST,
         pointer: None,
     }];
     while let Some(next) = pending.pop() {
-        let target = match bvh.node(next.child.handle) {
+        let target = match bvh.node(next.handle) {
             BvhNode::Leaf(leaf) => Target::Leaf(leaf),
             BvhNode::Inner { .. } => Target::Inner(words.len() as u32),
         };
@@ -108,64 +90,23 @@ fn push_children<P: Primitive>(
     words: &mut Vec<u32>,
     pending: &mut Vec<Pending>,
 ) {
-    let children = open(bvh, node);
-    let room = node.room - (children.len() as u32 - 1);
+    let children = bvh.opened(node.handle, LANES);
     let carved: Vec<_> = children
         .iter()
-        .map(|child| planes_towards(node.region, child.bounds))
+        .map(|&(_, bounds)| planes_towards(node.region, bounds))
         .collect();
     let planes: Vec<_> = carved.iter().map(|&(planes, _)| planes).collect();
     let pointers = push_node(words, &planes);
     let new = children.into_iter().zip(carved).zip(pointers..);
-    let new = new.map(|((child, (_, region)), pointer)| Pending {
-        child,
+    let new = new.map(|(((handle, _), (_, region)), pointer)| Pending {
+        handle,
         region,
-        room,
         pointer: Some(pointer),
     });
     let first = pending.len();
     pending.extend(new);
     // The first child is written next.
     pending[first..].reverse();
-}
-
-/// The children of a node, two to eight: those of the BVH, the largest opened again and
-/// again (Wald, Benthin and Boulos 2008).
-///
-/// A ray puts off all children but one. Whatever is opened, there is room for a way down
-/// that opens nothing more.
-fn open<P: Primitive>(bvh: &Bvh<P>, node: &Pending) -> Vec<Child> {
-    let mut children: Vec<Child> = children_of(bvh, node.child).into_iter().flatten().collect();
-    let fits = |children: &[Child]| {
-        let highest = children.iter().map(|child| child.level).min().unwrap_or(0);
-        children.len() as u32 - 1 + (bvh.depth() - highest) <= node.room
-    };
-    while children.len() < LANES {
-        let inner = (0..children.len()).filter(|&index| !children[index].handle.is_leaf());
-        let area = |index: &usize| children[*index].bounds.half_area();
-        let Some(largest) = inner.max_by(|a, b| area(a).total_cmp(&area(b))) else {
-            break;
-        };
-        let mut opened = children.clone();
-        let below = children_of(bvh, children[largest]).into_iter().flatten();
-        opened.splice(largest..=largest, below);
-        if !fits(&opened) {
-            break;
-        }
-        children = opened;
-    }
-    children
-}
-
-fn children_of<P: Primitive>(bvh: &Bvh<P>, child: Child) -> Option<[Child; 2]> {
-    match bvh.node(child.handle) {
-        BvhNode::Leaf(_) => None,
-        BvhNode::Inner { bounds, children } => Some([0, 1].map(|side| Child {
-            handle: children[side],
-            bounds: bounds[side],
-            level: child.level + 1,
-        })),
-    }
 }
 
 /// The planes of `target` that leave least of `region`, no more than a child may have,

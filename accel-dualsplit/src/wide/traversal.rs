@@ -17,7 +17,7 @@ use accel_core::query::Query;
 use accel_core::ray::{max_or_keep, min_or_keep};
 use accel_core::simd::{InstructionSet, Lanes, SimdLevel, SimdWork};
 use accel_core::statistics::{NodeKind, TraversalStatistics};
-use accel_core::structure::TraversalStack;
+use accel_core::structure::WideStack;
 use accel_core::{PreparedRay, Primitive};
 
 use super::WideDualSplitTree;
@@ -84,7 +84,7 @@ impl<P: Primitive, Q: Query, S: TraversalStatistics> Traversal<'_, P, Q, S> {
             return;
         }
         let tables = PlaneTables::new(ray);
-        let mut stack: TraversalStack<PutOff> = TraversalStack::new();
+        let mut stack = WideStack::new();
         loop {
             match pointer.target() {
                 Target::Leaf(leaf) => {
@@ -179,7 +179,7 @@ impl<L: Lanes> Parts<L> {
     fn in_order(
         &self,
         node: &WideNode<'_>,
-        stack: &mut TraversalStack<PutOff>,
+        stack: &mut WideStack<PutOff>,
     ) -> Option<(WidePointer, f32, f32)> {
         if self.met == 0 {
             return None;
@@ -187,7 +187,7 @@ impl<L: Lanes> Parts<L> {
         let (nears, fars) = (self.near.lanes(), self.far.lanes());
         let mut nearest = self.met.trailing_zeros();
         let mut others = self.met & (self.met - 1);
-        let put_off = others.count_ones();
+        let bottom = stack.len();
         while others != 0 {
             let mut lane = others.trailing_zeros();
             others &= others - 1;
@@ -196,10 +196,7 @@ impl<L: Lanes> Parts<L> {
             }
             let far = fars[lane as usize];
             let pointer = node.child(lane);
-            stack.push(PutOff { pointer, far }, nears[lane as usize]);
-        }
-        if put_off > 1 {
-            stack.sort_last(put_off as usize);
+            stack.push_sorted(PutOff { pointer, far }, nears[lane as usize], bottom);
         }
         let lane = nearest as usize;
         Some((node.child(nearest), nears[lane], fars[lane]))
