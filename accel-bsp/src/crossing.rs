@@ -11,7 +11,7 @@
 //!                                   of the slope and of `t`, in `rounding`
 //! ```
 //!
-//! Every operation that overflows ends in NaN, which constrains nothing: both sides
+//! Where a distance could overflow, tau is NaN, which constrains nothing: both sides
 //! are visited.
 
 use accel_core::PreparedRay;
@@ -130,9 +130,7 @@ impl<'a> Crossings<'a> {
         };
         let [x, y, z] = Axis::ALL.map(along);
         let magnitudes = (origin.abs() + direction.abs()).extend(1.0);
-        // Twice the largest sum, NaN where it overflows.
-        let most = 2.0 * largest.dot(magnitudes);
-        let overflow = most - most;
+        let may_overflow = !(2.0 * largest.dot(magnitudes)).is_finite();
         Self {
             ray,
             axes: [x, y, z, z],
@@ -143,7 +141,11 @@ impl<'a> Crossings<'a> {
             rounding_along: (direction.abs() * along_the_ray)
                 .max(Vec3::splat(f32::MIN_POSITIVE * tolerance.rounding))
                 .extend(0.0),
-            slack: tolerance.slack + overflow,
+            slack: if may_overflow {
+                f32::NAN
+            } else {
+                tolerance.slack
+            },
         }
     }
 
