@@ -1,6 +1,7 @@
 //! The tree.
 
 use accel_core::geometry::rounding;
+use accel_core::glam::Vec4;
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
@@ -22,6 +23,16 @@ pub struct BspTree<P: Primitive> {
     pub(crate) bounds: Option<Aabb>,
     /// Edges from the root to the deepest leaf.
     pub(crate) depth: u32,
+    /// The largest magnitudes of the numbers of planes that are not axis-aligned,
+    /// from [`largest_of`].
+    pub(crate) largest: Vec4,
+}
+
+/// See [`BspTree::largest`].
+pub(crate) fn largest_of(nodes: &[Node]) -> Vec4 {
+    let planes = nodes.iter().filter(|node| node.is_general());
+    let magnitudes = planes.map(|node| node.plane_words().abs());
+    magnitudes.fold(Vec4::ZERO, Vec4::max)
 }
 
 /// How many nodes and leaves of each kind a [`BspTree`] has: the rows of Table 3
@@ -32,7 +43,8 @@ pub struct BspShape {
     pub axis_aligned: usize,
     /// Nodes split by other planes.
     pub general: usize,
-    /// By the number of primitives, the number of leaves that hold as many.
+    /// By the number of primitives, the number of leaves that hold as many; those of
+    /// none take no node.
     pub leaves_by_size: Vec<usize>,
     /// Of the leaves of one primitive, those that the traversal itself can answer
     /// (section 4.3).
@@ -69,7 +81,6 @@ impl<P: Primitive> BspTree<P> {
                     shape.general += 1;
                     continue;
                 }
-                NodeKind::Empty => 0,
                 NodeKind::Leaf(leaf) => self.stored.leaves().leaf_ids(leaf).count(),
                 NodeKind::PlanarLeaf { .. } => 1,
                 NodeKind::BoundedLeaf { .. } => {
@@ -81,6 +92,10 @@ impl<P: Primitive> BspTree<P> {
                 shape.leaves_by_size.resize(size + 1, 0);
             }
             shape.leaves_by_size[size] += 1;
+        }
+        if let Some(empty) = shape.leaves_by_size.first_mut() {
+            // Every part but the whole is one of two of an inner node.
+            *empty = 2 * (shape.axis_aligned + shape.general) + 1 - self.nodes.len();
         }
         shape
     }
@@ -120,26 +135,30 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
         };
         let root = self
             .bounds
-            .map(|bounds| (0, Polytope::of_box(&bounds), None));
-        let mut pending: Vec<(u32, Polytope, Option<u32>)> = root.into_iter().collect();
+            .map(|bounds| (Some(0), Polytope::of_box(&bounds), None));
+        let mut pending: Vec<(Option<u32>, Polytope, Option<u32>)> = root.into_iter().collect();
         while let Some((index, cell, parent)) = pending.pop() {
-            let node = self.nodes[index as usize];
+            // A part that holds nothing has no node.
+            let node = index.map(|index| self.nodes[index as usize]);
             let [low, high] = cell.bounds();
             let bounds = Aabb {
                 min: rounding::vec3_down(low),
                 max: rounding::vec3_up(high),
             };
-            let position = match (node.plane(), node.children()) {
-                (Some(plane), Some(children)) => {
+            let position = match node.and_then(|node| Some((node, node.plane()?))) {
+                Some((node, plane)) => {
                     let position = outline.push_inner(StatisticsKind::Inner, bounds, parent);
                     // The planes of a loaded tree may miss their cells.
                     let parts = cell.cut(&plane);
                     let [behind, in_front] = parts.unwrap_or_else(|_| [cell.clone(), cell.clone()]);
-                    pending.push((children + 1, in_front, Some(position)));
-                    pending.push((children, behind, Some(position)));
+                    pending.push((node.child(1), in_front, Some(position)));
+                    pending.push((node.child(0), behind, Some(position)));
                     position
                 }
-                _ => outline.push_leaf(bounds, parent, self.ids_of(node)),
+                None => {
+                    let ids = node.into_iter().flat_map(|node| self.ids_of(node));
+                    outline.push_leaf(bounds, parent, ids)
+                }
             };
             outline.nodes[position as usize].half_area = 0.5 * cell.area();
         }

@@ -32,8 +32,8 @@ pub struct BspBuilder {
     /// Which planes are tried.
     pub candidate_planes: CandidatePlanes,
     /// In larger nodes, of how many primitives, evenly picked, the planes are
-    /// tried; axis-aligned planes are tried for all. `None` is the paper's
-    /// exhaustive search. At least 1.
+    /// tried; axis-aligned planes are tried for all. `None`, with
+    /// [`CandidatePlanes::of_the_paper`], is the paper's exhaustive search. At least 1.
     pub sampled_primitives: Option<usize>,
     /// How many references all splits together may add, for each primitive;
     /// shared out from the root down. A limit, rarely met: a scan needs about 3,
@@ -100,6 +100,7 @@ impl BspBuilder {
         Self {
             costs,
             axis_aligned_nodes: false,
+            candidate_planes: CandidatePlanes::of_the_paper(),
             ..Self::default()
         }
     }

@@ -16,7 +16,7 @@ pub(crate) struct Ancestor {
 }
 
 /// Shows `visit` every node: its index, its cell, and the planes of the nodes
-/// above by their depth.
+/// above by their depth. Parts that hold nothing have no node.
 ///
 /// # Errors
 /// If a plane does not cut its cell, which no built tree has.
@@ -34,13 +34,13 @@ pub(crate) fn for_each_cell(
         }
         visit(index, &cell, &path);
         let node: Node = nodes[index];
-        if let (Some(plane), Some(children)) = (node.plane(), node.children()) {
+        if let Some(plane) = node.plane() {
             let [behind, in_front] = cell.cut(&plane)?;
-            let first = children as usize;
             for (is_in_front, part) in [(true, in_front), (false, behind)] {
-                let parent = Ancestor { plane, is_in_front };
-                let child = first + usize::from(is_in_front);
-                pending.push((child, Some((parent, path.len())), part));
+                if let Some(child) = node.child(u32::from(is_in_front)) {
+                    let parent = Ancestor { plane, is_in_front };
+                    pending.push((child as usize, Some((parent, path.len())), part));
+                }
             }
         }
     }

@@ -11,13 +11,15 @@
 //!                                   of the slope and of `t`, in `rounding`
 //! ```
 //!
-//! Every operation that overflows ends in NaN, which constrains nothing: both sides
+//! Where a distance could overflow, tau is NaN, which constrains nothing: both sides
 //! are visited.
 
 use accel_core::PreparedRay;
 use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
 use accel_core::glam::{DVec4, Vec3, Vec4};
 use accel_core::ray::{max_or_keep, min_or_keep};
+
+use crate::node::Node;
 
 /// What tau is made of. Both parts are needed: tests show that hits are lost
 /// without either.
@@ -46,6 +48,8 @@ const ALONG_THE_RAY: f32 = HIT_ROUNDING + 12.0 * UNIT_ROUNDOFF;
 /// How far the signed distance of the origin may be off, relative to its terms.
 const AT_THE_ORIGIN: f32 = 8.0 * UNIT_ROUNDOFF;
 
+const SIGN: u32 = 1 << 31;
+
 /// What tells where a ray crosses planes.
 pub(crate) struct Crossings<'a> {
     pub ray: &'a PreparedRay,
@@ -60,6 +64,7 @@ pub(crate) struct Crossings<'a> {
     /// off, and per unit of `t`, a hit's.
     rounding_at_origin: Vec4,
     rounding_along: Vec4,
+    /// Of general planes; NaN where distances from them could overflow.
     slack: f32,
 }
 
@@ -102,8 +107,9 @@ pub(crate) struct GeneralCrossing {
 }
 
 impl<'a> Crossings<'a> {
+    /// For a tree whose planes have numbers of at most these magnitudes.
     #[inline]
-    pub(crate) fn new(ray: &'a PreparedRay, tolerance: Tolerance) -> Self {
+    pub(crate) fn new(ray: &'a PreparedRay, largest: Vec4, tolerance: Tolerance) -> Self {
         let (origin, direction) = (ray.origin(), ray.direction());
         let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
         let at_the_origin = AT_THE_ORIGIN * tolerance.rounding;
@@ -123,6 +129,8 @@ impl<'a> Crossings<'a> {
             }
         };
         let [x, y, z] = Axis::ALL.map(along);
+        let magnitudes = (origin.abs() + direction.abs()).extend(1.0);
+        let may_overflow = !(2.0 * largest.dot(magnitudes)).is_finite();
         Self {
             ray,
             axes: [x, y, z, z],
@@ -133,33 +141,33 @@ impl<'a> Crossings<'a> {
             rounding_along: (direction.abs() * along_the_ray)
                 .max(Vec3::splat(f32::MIN_POSITIVE * tolerance.rounding))
                 .extend(0.0),
-            slack: tolerance.slack,
+            slack: if may_overflow {
+                f32::NAN
+            } else {
+                tolerance.slack
+            },
         }
     }
 
     /// The fast path of a kd-tree. The slack is a little more than the build used,
     /// for the rounding of the two sums.
     #[inline]
-    pub(crate) fn axis_aligned(
-        &self,
-        axis: usize,
-        position: f32,
-        slack: f32,
-        interval: Interval,
-    ) -> Sides {
-        let crossing = &self.axes[axis];
+    pub(crate) fn axis_aligned(&self, node: &Node, interval: Interval) -> Sides {
+        let crossing = &self.axes[node.axis_index()];
+        let nearer = crossing.near_child;
+        let (position, slack) = node.position_and_slack();
         let distance = position - crossing.origin;
         let slack = slack * crossing.slack_factor;
         let exit = (distance + slack) * crossing.exit_reciprocal;
         if exit < interval.near {
-            return Sides::One(1 - crossing.near_child);
+            return Sides::One(1 - nearer);
         }
         let entry = (distance - slack) * crossing.entry_reciprocal;
         if entry > interval.far {
-            return Sides::One(crossing.near_child);
+            return Sides::One(nearer);
         }
         Sides::Both {
-            nearer: crossing.near_child,
+            nearer,
             exit,
             entry,
         }
@@ -171,14 +179,13 @@ impl<'a> Crossings<'a> {
         let start = plane.dot(self.origin);
         let slope = plane.dot(self.direction);
         let rounding = self.rounding_at_origin + self.rounding_along * far;
-        // An overflow makes it NaN.
-        let slack = self.slack + 0.0 * (start + slope);
-        let is_falling = slope < 0.0;
+        // Without a branch, which would be hard to predict.
+        let sign = slope.to_bits() & SIGN;
         GeneralCrossing {
-            start: if is_falling { -start } else { start },
+            start: f32::from_bits(start.to_bits() ^ sign),
             slope: slope.abs(),
-            tau: slack + plane.abs().dot(rounding),
-            near_child: u32::from(is_falling),
+            tau: self.slack + plane.abs().dot(rounding),
+            near_child: sign >> 31,
         }
     }
 

@@ -1,10 +1,11 @@
 //! From a build tree to nodes.
 
 use accel_core::build::{BuildNode, BuildTree, Cursor};
-use accel_core::glam::Vec3;
+use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, BuildError, Polygonal, Primitive};
 
+use crate::bsp_tree::largest_of;
 use crate::candidates::planes_of;
 use crate::node::{MAX_INDEX, NODE_BYTES, Node};
 use crate::pieces::{margin, pad_of};
@@ -19,12 +20,14 @@ impl<P: Primitive> BspTree<P> {
             stored: StoredPrimitives::new(primitives, skipped, 0),
             bounds: None,
             depth: 0,
+            largest: Vec4::ZERO,
         }
     }
 }
 
 impl<P: Polygonal> BspTree<P> {
-    /// Packs a build tree in depth-first order, siblings adjacent.
+    /// Packs a build tree in depth-first order, siblings adjacent, without its empty
+    /// leaves.
     pub(crate) fn pack(
         builder: &BspBuilder,
         primitives: &[P],
@@ -49,22 +52,29 @@ impl<P: Polygonal> BspTree<P> {
             stored: StoredPrimitives::new(primitives, skipped, references),
             bounds: Some(bounds),
             depth: 0,
+            largest: Vec4::ZERO,
         };
-        packed.nodes.push(Node::empty());
-        let mut pending: Vec<(Cursor<'_, SplitPlane>, usize, u32)> = vec![(tree.root(), 0, 0)];
+        packed.nodes.push(Node::leaf(0));
+        let mut pending = vec![(tree.root(), 0, 0)];
         while let Some((cursor, position, depth)) = pending.pop() {
             packed.depth = packed.depth.max(depth);
             packed.nodes[position] = match cursor.node() {
                 BuildNode::Leaf(ids) => packed.leaf(builder, primitives, ids),
                 BuildNode::Inner { node, children } => {
-                    let first = packed.nodes.len();
-                    packed.nodes.extend([Node::empty(); 2]);
-                    pending.push((children[1], first + 1, depth + 1));
-                    pending.push((children[0], first, depth + 1));
-                    Node::inner(node, first as u32)
+                    let are_there = children.each_ref().map(holds_any);
+                    let inner = Node::inner(node, packed.nodes.len() as u32, are_there);
+                    for side in [1, 0] {
+                        if let Some(place) = inner.child(side) {
+                            pending.push((children[side as usize], place as usize, depth + 1));
+                            packed.nodes.push(Node::leaf(0));
+                        }
+                    }
+                    inner
                 }
             };
         }
+        packed.nodes.shrink_to_fit();
+        packed.largest = largest_of(&packed.nodes);
         if builder.single_leaves == SingleLeaves::Bounded {
             packed.mark_bounded_leaves(primitives);
         }
@@ -72,9 +82,6 @@ impl<P: Polygonal> BspTree<P> {
     }
 
     fn leaf(&mut self, builder: &BspBuilder, primitives: &[P], ids: &[u32]) -> Node {
-        if ids.is_empty() {
-            return Node::empty();
-        }
         let leaf = self.stored.leaves_mut().push_leaf(primitives, ids);
         let plane = match ids {
             [id] if builder.single_leaves == SingleLeaves::Planar => {
@@ -84,6 +91,10 @@ impl<P: Polygonal> BspTree<P> {
         };
         plane.map_or(Node::leaf(leaf), |plane| Node::planar_leaf(leaf, &plane))
     }
+}
+
+fn holds_any(node: &Cursor<'_, SplitPlane>) -> bool {
+    !matches!(node.node(), BuildNode::Leaf([]))
 }
 
 /// The plane within whose slack the whole primitive lies, and every hit on it,

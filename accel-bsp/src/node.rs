@@ -1,12 +1,15 @@
 //! The codec of nodes: 20 bytes each (Ize 2008, section 4.4). This is the only
 //! file that knows bits.
 //!
-//! Three words of the normal, one of the offset, and one of the kind (2 bits of
-//! the axis, 3 for a general plane; 1 bit for a leaf) and an index of 29 bits: of
-//! the first of two adjacent children, back then front, or of a leaf in the
-//! storage. An axis-aligned node keeps its slack in the normal's first word. A
-//! leaf of one primitive keeps there the plane of that primitive, or the depth of
-//! the node that splits by it (section 4.3).
+//! Three words of the normal, one of the offset, and one of the kind: 2 bits of the
+//! axis, 3 for a general plane; 2 bits that tell whether there is a child behind the
+//! plane and one in front of it, none for a leaf; and an index of 28 bits: of the
+//! child behind the plane, the one in front being the next, or of a leaf in the
+//! storage. A part of a cell that holds nothing has no node.
+//!
+//! An axis-aligned node keeps its slack in the normal's first word. A leaf of one
+//! primitive keeps there the plane of that primitive, or the depth of the node that
+//! splits by it (section 4.3).
 
 use accel_core::geometry::Axis;
 use accel_core::glam::{Vec3, Vec4};
@@ -24,12 +27,13 @@ const _: () = assert!(NODE_BYTES == 20);
 const GENERAL: u32 = 3;
 /// Among the kinds of leaves: one whose normal's first word is a depth.
 const BOUNDED: u32 = 1;
-const IS_LEAF: u32 = 1 << 2;
-const INDEX_SHIFT: u32 = 3;
-const NO_LEAF: u32 = u32::MAX >> INDEX_SHIFT;
+/// From here on, a bit for each child that there is.
+const CHILDREN_SHIFT: u32 = 2;
+const CHILDREN: u32 = 0b11 << CHILDREN_SHIFT;
+const INDEX_SHIFT: u32 = 4;
 
 /// The largest index that a node can hold.
-pub(crate) const MAX_INDEX: usize = NO_LEAF as usize - 1;
+pub(crate) const MAX_INDEX: usize = (u32::MAX >> INDEX_SHIFT) as usize;
 
 /// A node as it lies in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +44,10 @@ pub(crate) struct Node {
     word: u32,
 }
 
+/// The children of an inner node, behind its plane and in front of it; `None` for a
+/// part that holds nothing.
+pub(crate) type Children = [Option<u32>; 2];
+
 /// A [`Node`] taken apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NodeKind {
@@ -48,16 +56,14 @@ pub(crate) enum NodeKind {
         axis: Axis,
         position: f32,
         slack: f32,
-        children: u32,
+        children: Children,
     },
     /// Split by a plane of any orientation, its slack 1.
     General {
         normal: Vec3,
         offset: f32,
-        children: u32,
+        children: Children,
     },
-    /// Holds nothing.
-    Empty,
     /// Holds primitives.
     Leaf(u32),
     /// Holds one primitive, which lies within 1 of this plane.
@@ -72,26 +78,26 @@ pub(crate) enum NodeKind {
 }
 
 impl Node {
-    pub(crate) fn inner(plane: &SplitPlane, children: u32) -> Self {
-        debug_assert!(children as usize <= MAX_INDEX);
+    /// An inner node with its first child at `first`, never 0, and the other next to
+    /// it; at least one must be there.
+    pub(crate) fn inner(plane: &SplitPlane, first: u32, is_there: [bool; 2]) -> Self {
+        debug_assert!((1..=MAX_INDEX).contains(&(first as usize)) && is_there != [false; 2]);
+        let [behind, in_front] = is_there.map(u32::from);
+        let children = (behind | in_front << 1) << CHILDREN_SHIFT;
+        let word = (first + behind - 1) << INDEX_SHIFT | children;
         let (normal, offset, slack) = plane.stored();
-        let index = children << INDEX_SHIFT;
         match plane.axis() {
             Some(axis) => Self {
                 normal: [slack, 0.0, 0.0],
                 offset,
-                word: index | axis.index() as u32,
+                word: word | axis.index() as u32,
             },
             None => Self {
                 normal: normal.to_array(),
                 offset,
-                word: index | GENERAL,
+                word: word | GENERAL,
             },
         }
-    }
-
-    pub(crate) fn empty() -> Self {
-        Self::leaf_word(NO_LEAF)
     }
 
     pub(crate) fn leaf(leaf: u32) -> Self {
@@ -125,7 +131,7 @@ impl Node {
         Self {
             normal: [0.0; 3],
             offset: 0.0,
-            word: leaf << INDEX_SHIFT | IS_LEAF,
+            word: leaf << INDEX_SHIFT,
         }
     }
 
@@ -149,10 +155,11 @@ impl Node {
 
     #[inline]
     pub(crate) fn is_leaf(&self) -> bool {
-        self.word & IS_LEAF != 0
+        self.word & CHILDREN == 0
     }
 
-    /// Whether the plane of an inner node is not orthogonal to an axis.
+    /// Whether the plane of an inner node is not orthogonal to an axis, or a leaf has
+    /// one.
     #[inline]
     pub(crate) fn is_general(&self) -> bool {
         self.word & GENERAL == GENERAL
@@ -177,15 +184,16 @@ impl Node {
         Vec3::from_array(self.normal).extend(self.offset)
     }
 
-    /// The first child of an inner node, or the number of a leaf.
+    /// The child of an inner node on a side, 0 behind its plane and 1 in front of it.
     #[inline]
-    pub(crate) fn index(&self) -> u32 {
-        self.word >> INDEX_SHIFT
+    pub(crate) fn child(&self, side: u32) -> Option<u32> {
+        let is_there = self.word >> (CHILDREN_SHIFT + side) & 1 != 0;
+        is_there.then(|| (self.word >> INDEX_SHIFT) + side)
     }
 
-    /// The first of the two children of an inner node.
-    pub(crate) fn children(&self) -> Option<u32> {
-        (self.word & IS_LEAF == 0).then_some(self.word >> INDEX_SHIFT)
+    /// Both children; none of a leaf.
+    pub(crate) fn children(&self) -> Children {
+        [self.child(0), self.child(1)]
     }
 
     /// The plane of an inner node.
@@ -207,15 +215,14 @@ impl Node {
         }
     }
 
-    /// The number of a leaf that is not empty.
+    /// The number of a leaf.
     pub(crate) fn leaf_number(&self) -> Option<u32> {
-        let leaf = self.word >> INDEX_SHIFT;
-        (self.word & IS_LEAF != 0 && leaf != NO_LEAF).then_some(leaf)
+        self.is_leaf().then_some(self.word >> INDEX_SHIFT)
     }
 
     /// This leaf, with another number.
     pub(crate) fn with_leaf_number(self, leaf: u32) -> Self {
-        let low_bits = self.word & !(NO_LEAF << INDEX_SHIFT);
+        let low_bits = self.word & !(u32::MAX << INDEX_SHIFT);
         Self {
             word: leaf << INDEX_SHIFT | low_bits,
             ..self
@@ -226,21 +233,21 @@ impl Node {
     pub(crate) fn kind(&self) -> NodeKind {
         let index = self.word >> INDEX_SHIFT;
         let (normal, offset) = (Vec3::from_array(self.normal), self.offset);
-        if self.word & IS_LEAF != 0 {
-            return match (index, self.word & GENERAL) {
-                (NO_LEAF, _) => NodeKind::Empty,
-                (leaf, GENERAL) => NodeKind::PlanarLeaf {
+        if self.is_leaf() {
+            return match self.word & GENERAL {
+                GENERAL => NodeKind::PlanarLeaf {
                     normal,
                     offset,
-                    leaf,
+                    leaf: index,
                 },
-                (leaf, BOUNDED) => NodeKind::BoundedLeaf {
+                BOUNDED => NodeKind::BoundedLeaf {
                     depth: self.normal[0].to_bits(),
-                    leaf,
+                    leaf: index,
                 },
-                (leaf, _) => NodeKind::Leaf(leaf),
+                _ => NodeKind::Leaf(index),
             };
         }
+        let children = self.children();
         let axis = match self.word & GENERAL {
             0 => Axis::X,
             1 => Axis::Y,
@@ -249,7 +256,7 @@ impl Node {
                 return NodeKind::General {
                     normal,
                     offset,
-                    children: index,
+                    children,
                 };
             }
         };
@@ -257,7 +264,7 @@ impl Node {
             axis,
             position: offset,
             slack: normal.x,
-            children: index,
+            children,
         }
     }
 }
@@ -269,38 +276,54 @@ mod tests {
 
     #[test]
     fn nodes_survive_encoding() {
-        for children in [0, 7, MAX_INDEX as u32] {
-            for axis in Axis::ALL {
-                let plane = SplitPlane::axis_aligned(axis, -2.5, 0.5);
-                let expected = NodeKind::AxisAligned {
-                    axis,
-                    position: -2.5,
-                    slack: 0.5,
+        for first in [1, 7, MAX_INDEX as u32 - 1] {
+            for (is_there, children) in [
+                ([true, true], [Some(first), Some(first + 1)]),
+                ([true, false], [Some(first), None]),
+                ([false, true], [None, Some(first)]),
+            ] {
+                for axis in Axis::ALL {
+                    let plane = SplitPlane::axis_aligned(axis, -2.5, 0.5);
+                    let expected = NodeKind::AxisAligned {
+                        axis,
+                        position: -2.5,
+                        slack: 0.5,
+                        children,
+                    };
+                    let node = Node::inner(&plane, first, is_there);
+                    assert_eq!((node.kind(), node.plane()), (expected, Some(plane)));
+                }
+                let plane = sloping();
+                let expected = NodeKind::General {
+                    normal: Vec3::X * 2.0,
+                    offset: 8.0,
                     children,
                 };
-                assert_eq!(Node::inner(&plane, children).kind(), expected);
+                let node = Node::inner(&plane, first, is_there);
+                assert_eq!((node.kind(), node.plane()), (expected, Some(plane)));
             }
-            let point = Vec3::new(4.0, 0.0, 0.0);
-            let plane = SplitPlane::general(&Plane::through(point, Vec3::X), point, 0.5).unwrap();
-            let (normal, offset) = (Vec3::X * 2.0, 8.0);
-            let expected = NodeKind::General {
-                normal,
-                offset,
-                children,
-            };
-            assert_eq!(Node::inner(&plane, children).kind(), expected);
-            assert_eq!(Node::leaf(children).kind(), NodeKind::Leaf(children));
-            let leaf = children;
+        }
+    }
+
+    #[test]
+    fn leaves_survive_encoding() {
+        for leaf in [0, 7, MAX_INDEX as u32] {
+            assert_eq!(Node::leaf(leaf).kind(), NodeKind::Leaf(leaf));
             let expected = NodeKind::PlanarLeaf {
-                normal,
-                offset,
+                normal: Vec3::X * 2.0,
+                offset: 8.0,
                 leaf,
             };
-            assert_eq!(Node::planar_leaf(leaf, &plane).kind(), expected);
+            assert_eq!(Node::planar_leaf(leaf, &sloping()).kind(), expected);
             let (depth, bounded) = (19, Node::bounded_leaf(leaf, 19));
             assert_eq!(bounded.kind(), NodeKind::BoundedLeaf { depth, leaf });
-            assert_eq!(Node::inner(&plane, children).plane(), Some(plane));
+            assert_eq!(bounded.children(), [None; 2]);
         }
-        assert_eq!(Node::empty().kind(), NodeKind::Empty);
+    }
+
+    /// A plane through (4, 0, 0), its slack 0.5, stored as a general one.
+    fn sloping() -> SplitPlane {
+        let point = Vec3::new(4.0, 0.0, 0.0);
+        SplitPlane::general(&Plane::through(point, Vec3::X), point, 0.5).unwrap()
     }
 }

@@ -14,10 +14,11 @@ use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, BuildBudget, Polygonal};
 
 use crate::BspTree;
-use crate::node::{NODE_WORDS, Node, NodeKind};
+use crate::bsp_tree::largest_of;
+use crate::node::{NODE_WORDS, Node};
 
 const KIND: [u8; 8] = *b"accelbsp";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl<P: Polygonal> BspTree<P> {
     /// The tree as bytes, without its primitives, on any machine the same.
@@ -35,9 +36,8 @@ impl<P: Polygonal> BspTree<P> {
         let mut pending = Vec::from_iter(self.bounds.map(|_| 0));
         while let Some(index) = pending.pop() {
             let node = self.nodes[index as usize];
-            if let Some(children) = node.children() {
-                pending.extend([children + 1, children]);
-            } else if let Some(leaf) = node.leaf_number() {
+            pending.extend(node.children().into_iter().rev().flatten());
+            if let Some(leaf) = node.leaf_number() {
                 let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
                 archive.push_list(ids.into_iter());
             }
@@ -73,6 +73,7 @@ impl<P: Polygonal> BspTree<P> {
         loading.read_leaves()?;
         loading.archive.finish()?;
         Ok(Self {
+            largest: largest_of(&loading.nodes),
             nodes: loading.nodes,
             stored: loading.leaves.finish()?,
             bounds: (node_count > 0).then_some(bounds),
@@ -108,10 +109,9 @@ impl<P: Polygonal> Loading<'_, P> {
             if !node.is_finite() {
                 return out_of_range("a plane that is not finite at node", index as u64, 0);
             }
-            if let Some(children) = node.children() {
-                let first = children as usize;
-                pending.extend([(first + 1, depth + 1), (first, depth + 1)]);
-            } else if !matches!(node.kind(), NodeKind::Empty) {
+            let children = node.children().into_iter().rev().flatten();
+            pending.extend(children.map(|child| (child as usize, depth + 1)));
+            if node.is_leaf() {
                 let leaf = self.leaves.read_leaf(&mut self.archive)?;
                 self.nodes[index] = node.with_leaf_number(leaf);
             }

@@ -57,7 +57,7 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
         far: min_or_keep(query.t_max(), whole.far),
     };
     if part.near <= part.far {
-        let crossings = Crossings::new(ray, tolerance);
+        let crossings = Crossings::new(ray, tree.largest, tolerance);
         let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
     }
 }
@@ -83,58 +83,84 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
     let mut stack: TraversalStack<PutOff<T>> = TraversalStack::new();
     loop {
         let node = &tree.nodes[segment.node as usize];
-        if node.is_leaf() {
+        let below = if node.is_leaf() {
             statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
             test_leaf(tree, node, &segment, crossings, query, statistics)?;
-            let Some(next) = stack.pop_entry_within(query.t_max()) else {
-                return ControlFlow::Continue(());
-            };
-            segment = Segment {
-                node: next.node.node,
-                interval: Interval {
-                    near: next.near,
-                    far: min_or_keep(next.node.far, query.t_max()),
-                },
-                planes: next.node.planes,
-            };
+            None
+        } else {
+            descend(node, &segment, crossings, &mut stack, statistics)
+        };
+        if let Some(below) = below {
+            segment = below;
             continue;
         }
-        let interval = segment.interval;
-        let sides = if node.is_general() {
-            statistics.visit_node(StatisticsKind::General, NODE_BYTES as u32);
-            crossings
-                .general(node.plane_words(), interval.far)
-                .sides(interval)
-        } else {
-            statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
-            let (position, slack) = node.position_and_slack();
-            crossings.axis_aligned(node.axis_index(), position, slack, interval)
+        let Some(next) = stack.pop_entry_within(query.t_max()) else {
+            return ControlFlow::Continue(());
         };
-        statistics.test_planes(1);
-        let children = node.index();
-        match sides {
-            Sides::One(child) => {
-                segment.node = children + child;
-                segment.planes = segment.planes.on_one_side();
-            }
-            Sides::Both {
-                nearer,
-                exit,
-                entry,
-            } => {
-                let [planes, put_off] = segment.planes.divided(|| exact_crossing(node, crossings));
+        segment = Segment {
+            node: next.node.node,
+            interval: Interval {
+                near: next.near,
+                far: min_or_keep(next.node.far, query.t_max()),
+            },
+            planes: next.node.planes,
+        };
+    }
+}
+
+/// The child to go on with, the other one put off; `None` where nothing is left of
+/// the ray, or of what the node holds.
+#[inline(always)]
+fn descend<T: PlaneTracking, S: TraversalStatistics>(
+    node: &Node,
+    segment: &Segment<T>,
+    crossings: &Crossings<'_>,
+    stack: &mut TraversalStack<PutOff<T>>,
+    statistics: &mut S,
+) -> Option<Segment<T>> {
+    let interval = segment.interval;
+    statistics.test_planes(1);
+    let sides = if node.is_general() {
+        statistics.visit_node(StatisticsKind::General, NODE_BYTES as u32);
+        let crossing = crossings.general(node.plane_words(), interval.far);
+        crossing.sides(interval)
+    } else {
+        statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
+        crossings.axis_aligned(node, interval)
+    };
+    match sides {
+        Sides::One(side) => Some(Segment {
+            node: node.child(side)?,
+            interval,
+            planes: segment.planes.on_one_side(),
+        }),
+        Sides::Both {
+            nearer,
+            exit,
+            entry,
+        } => {
+            let [planes, beyond] = segment.planes.divided(|| exact_crossing(node, crossings));
+            let farther = node.child(1 - nearer).map(|node| Segment {
+                node,
+                interval: interval.after(entry),
+                planes: beyond,
+            });
+            let Some(nearer) = node.child(nearer) else {
+                return farther;
+            };
+            if let Some(farther) = farther {
                 let put_off = PutOff {
-                    node: children + 1 - nearer,
+                    node: farther.node,
                     far: interval.far,
-                    planes: put_off,
+                    planes: beyond,
                 };
-                stack.push(put_off, interval.after(entry).near);
-                segment = Segment {
-                    node: children + nearer,
-                    interval: interval.until(exit),
-                    planes,
-                };
+                stack.push(put_off, farther.interval.near);
             }
+            Some(Segment {
+                node: nearer,
+                interval: interval.until(exit),
+                planes,
+            })
         }
     }
 }
@@ -160,7 +186,6 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     statistics: &mut S,
 ) -> ControlFlow<()> {
     let leaf = match node.kind() {
-        NodeKind::Leaf(leaf) => leaf,
         NodeKind::PlanarLeaf { leaf, .. } => {
             statistics.test_planes(1);
             let interval = segment.interval;
@@ -181,7 +206,10 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
                 return ControlFlow::Continue(());
             }
         },
-        _ => return ControlFlow::Continue(()),
+        NodeKind::Leaf(leaf) => leaf,
+        NodeKind::AxisAligned { .. } | NodeKind::General { .. } => {
+            return ControlFlow::Continue(());
+        }
     };
     let leaves = tree.stored.leaves();
     leaves.intersect_leaf(leaf, crossings.ray, query, statistics)

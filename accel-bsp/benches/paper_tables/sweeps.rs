@@ -91,7 +91,7 @@ fn sweep_costs(triangles: &[Triangle]) -> Result<(), Failure> {
 
 /// The candidate planes of section 6.1, one kind at a time.
 fn try_planes(triangles: &[Triangle]) -> Result<(), Failure> {
-    let paper = CandidatePlanes::default();
+    let paper = CandidatePlanes::of_the_paper();
     let general = |general| CandidatePlanes { general, ..paper };
     let choices = [
         paper,
@@ -149,6 +149,7 @@ fn measure_growth(triangles: &[Triangle]) -> Result<(), Failure> {
 fn compare_with_exhaustive(triangles: &[Triangle]) -> Result<(), Failure> {
     let exhaustive = BspBuilder {
         sampled_primitives: None,
+        candidate_planes: CandidatePlanes::of_the_paper(),
         ..BspBuilder::default()
     };
     let sampled = Built::new(&BspBuilder::default(), triangles)?;

@@ -16,10 +16,13 @@ use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
 use crate::crossing::{Crossings, Tolerance};
-use crate::node::{NODE_BYTES, NodeKind};
+use crate::node::{NODE_BYTES, Node, NodeKind};
 use crate::plane_tracking::Untracked;
 use crate::traversal::traverse_below;
 use common_origin::CommonOrigin;
+
+/// Stands for a part that holds nothing.
+const NOTHING: u32 = u32::MAX;
 
 impl<P: Primitive> CellTree for BspTree<P> {
     type Vector<L: Lanes> = CommonOrigin<L>;
@@ -32,7 +35,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
 
     #[inline(always)]
     fn is_leaf(&self, node: u32) -> bool {
-        self.nodes[node as usize].children().is_none()
+        self.nodes.get(node as usize).is_none_or(Node::is_leaf)
     }
 
     #[inline(always)]
@@ -42,7 +45,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
         visit: &CellVisit<L>,
         statistics: &mut S,
     ) -> Division<L> {
-        let (crossing, back, kind) = match self.nodes[visit.node as usize].kind() {
+        let (crossing, children, kind) = match self.nodes[visit.node as usize].kind() {
             NodeKind::AxisAligned {
                 axis,
                 position,
@@ -64,10 +67,11 @@ impl<P: Primitive> CellTree for BspTree<P> {
         };
         statistics.visit_node(kind, NODE_BYTES as u32);
         statistics.test_planes(1);
+        let [back, front] = children.map(|child| child.unwrap_or(NOTHING));
         let children = if crossing.is_origin_behind {
-            [back, back + 1]
+            [back, front]
         } else {
-            [back + 1, back]
+            [front, back]
         };
         Division {
             children,
@@ -83,8 +87,9 @@ impl<P: Primitive> CellTree for BspTree<P> {
         visit: &CellVisit<L>,
         statistics: &mut S,
     ) -> Option<(u32, u32)> {
+        let node = self.nodes.get(visit.node as usize)?;
         statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
-        match self.nodes[visit.node as usize].kind() {
+        match node.kind() {
             NodeKind::Leaf(leaf) | NodeKind::BoundedLeaf { leaf, .. } => Some((leaf, visit.active)),
             NodeKind::PlanarLeaf {
                 normal,
@@ -107,7 +112,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
         query: &mut Q,
         statistics: &mut S,
     ) -> ControlFlow<()> {
-        let crossings = Crossings::new(ray, Tolerance::SAFE);
+        let crossings = Crossings::new(ray, self.largest, Tolerance::SAFE);
         traverse_below::<P, Untracked, Q, S>(self, part, &crossings, query, statistics)
     }
 }

@@ -1,7 +1,7 @@
 //! Every variant on every scene family, against brute force: single rays, and packets
 //! of every width at every level of vectors that the machine has.
 
-use accel_bsp::{BspBuilder, InvalidPrimitives, Triangle};
+use accel_bsp::{BspBuilder, CandidatePlanes, InvalidPrimitives, Triangle};
 use accel_core::testing::agreement::Expected;
 use accel_core::testing::families;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
@@ -56,6 +56,7 @@ fn other_epsilons_and_the_exhaustive_search_agree_on_every_family() {
     };
     let exhaustive = BspBuilder {
         sampled_primitives: None,
+        candidate_planes: CandidatePlanes::of_the_paper(),
         ..tri
     };
     let settings = [with_epsilon(24), with_epsilon(14), exhaustive];

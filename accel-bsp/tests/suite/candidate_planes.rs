@@ -25,7 +25,7 @@ fn all() -> CandidatePlanes {
         shared_edges: true,
         tangents: 2,
         vertex_triples: 4,
-        ..CandidatePlanes::default()
+        ..CandidatePlanes::of_the_paper()
     }
 }
 
@@ -83,13 +83,13 @@ fn no_split_is_better_than_the_best_through_three_corners() {
                     alpha: None,
                     ..BspCosts::default()
                 },
-                ..BspBuilder::default()
+                ..with(CandidatePlanes::of_the_paper())
             };
             usual.budget.max_depth = 1;
             let oracle = BspBuilder {
                 candidate_planes: CandidatePlanes {
                     vertex_triples: triangles.len(),
-                    ..CandidatePlanes::default()
+                    ..usual.candidate_planes
                 },
                 ..usual
             };
@@ -130,7 +130,7 @@ fn a_plane_through_a_shared_edge_parts_its_two_triangles() {
     let book = [page(0.1), page(0.5)];
     let shared = CandidatePlanes {
         shared_edges: true,
-        ..CandidatePlanes::default()
+        ..CandidatePlanes::of_the_paper()
     };
     let tree = with(shared).build(&book).unwrap();
     assert_eq!(tree.shape().leaves_by_size.len(), 2, "{:?}", tree.shape());
@@ -148,9 +148,9 @@ fn tangent_planes_pay_in_a_staircase() {
         .collect();
     let tangents = CandidatePlanes {
         tangents: 11,
-        ..CandidatePlanes::default()
+        ..CandidatePlanes::of_the_paper()
     };
-    let choices = [CandidatePlanes::default(), tangents];
+    let choices = [CandidatePlanes::of_the_paper(), tangents];
     let [usual, tangent] = choices.map(|planes| cost(&with(planes), &triangles));
     assert!(tangent < 0.9 * usual, "{tangent} {usual}");
 }

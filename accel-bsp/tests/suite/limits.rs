@@ -214,6 +214,7 @@ impl BuildObserver for CancelAfter {
 fn a_cancelled_build_searches_no_more_nodes() {
     let exhaustive = BspBuilder {
         sampled_primitives: None,
+        candidate_planes: CandidatePlanes::of_the_paper(),
         ..BspBuilder::default()
     };
     let observer = CancelAfter {

@@ -11,10 +11,11 @@ use crate::report::model::Spread;
 
 /// K_T, the cost of a node, against a K_I of 20; and the bonus of splits that cut
 /// off empty space.
-const SETTINGS: [(f64, f64); 5] = [
+const SETTINGS: [(f64, f64); 6] = [
     (15.0, 0.2),
     (30.0, 0.2),
     (60.0, 0.2),
+    (30.0, 0.0),
     (15.0, 0.0),
     (5.0, 0.2),
 ];
