@@ -154,7 +154,7 @@ impl BvhBuilder {
         };
         let fine = rules.with_fine_leaves();
         let tree = self.build_subtree(&fine, references, bounds, 0, observer)?;
-        reinsertion.improve(&tree, bounds, rules, observer)
+        reinsertion.improve(tree, bounds, rules, observer)
     }
 
     /// As [`build_tree`](Self::build_tree), for a part of another tree whose

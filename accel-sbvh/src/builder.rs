@@ -132,7 +132,7 @@ impl SbvhBuilder {
         };
         let (mut tree, statistics) = growth.grow(root, WaitingList::new(self.spending, spare))?;
         if let Some(reinsertion) = self.reinsertion {
-            tree = reinsertion.improve(&tree, bounds, &rules, observer)?;
+            tree = reinsertion.improve(tree, bounds, &rules, observer)?;
             // Parts of a primitive may have come together.
             tree.remove_duplicates_in_leaves();
         }

@@ -56,9 +56,9 @@ impl Default for Reinsertion {
 }
 
 impl Reinsertion {
-    /// Two trees with a node and a place in an order for each, at most two nodes
-    /// a reference.
-    pub(crate) const BYTES_PER_REFERENCE: usize = 2 * (2 * Links::BYTES_PER_NODE + 16);
+    /// At most two nodes a reference: the tree in links twice, and of each node a
+    /// move and a place in an order; at the end once, with the tree that it becomes.
+    pub(crate) const BYTES_PER_REFERENCE: usize = 2 * (2 * Links::BYTES_PER_NODE + 48);
 
     /// Checks the settings.
     ///
@@ -90,12 +90,13 @@ impl Reinsertion {
     /// [`BuildError::Cancelled`] if `observer` asked for it.
     pub fn improve(
         &self,
-        tree: &BuildTree<ChildBounds>,
+        tree: BuildTree<ChildBounds>,
         bounds: Aabb,
         rules: &NodeRules,
         observer: &dyn BuildObserver,
     ) -> Result<BuildTree<ChildBounds>, BuildError> {
-        let mut links = Links::new(tree, bounds);
+        let mut links = Links::new(&tree, bounds);
+        drop(tree);
         let deepest = links.depth().max(rules.max_depth());
         for _ in 0..self.rounds {
             if observer.is_cancelled() {
