@@ -101,24 +101,24 @@ fn variants() -> Vec<(&'static str, KdTreeBuilder)> {
         ..default
     };
     if std::env::var_os("VARIANTS").is_some() {
-        let traversal_cost = |traversal_cost| KdTreeBuilder {
+        let costs = |traversal_cost, empty_bonus| KdTreeBuilder {
             heuristic: SurfaceAreaHeuristic {
                 traversal_cost,
                 intersection_cost: 20.0,
             },
-            ..default
-        };
-        let bonus = |empty_bonus| KdTreeBuilder {
             empty_bonus,
             ..default
         };
         return vec![
             ("default", default),
-            ("K_T 5", traversal_cost(5.0)),
-            ("K_T 10", traversal_cost(10.0)),
-            ("K_T 25", traversal_cost(25.0)),
-            ("no bonus", bonus(0.0)),
-            ("bonus 0.5", bonus(0.5)),
+            ("K_T 15", costs(15.0, 0.2)),
+            ("K_T 30", costs(30.0, 0.2)),
+            ("K_T 45", costs(45.0, 0.2)),
+            ("K_T 60", costs(60.0, 0.2)),
+            ("15, none", costs(15.0, 0.0)),
+            ("30, none", costs(30.0, 0.0)),
+            ("45, none", costs(45.0, 0.0)),
+            ("30, half", costs(30.0, 0.1)),
             (
                 "refines 1",
                 terminated(Termination::BadRefines { allowed: 1 }),
