@@ -116,8 +116,15 @@ impl BspBuilder {
     /// BSP-tri as in the paper, whose hits
     /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) takes from the
     /// traversal (section 4.3).
+    ///
+    /// C_i is 16 here instead of 4: the more is split, the more triangles are tightly
+    /// bound and need no test (section 5.1).
     pub fn with_bounded_leaves() -> Self {
         Self {
+            costs: BspCosts {
+                intersection: 16.0,
+                ..BspCosts::default()
+            },
             single_leaves: SingleLeaves::Bounded,
             ..Self::default()
         }

@@ -3,12 +3,12 @@
 
 use std::time::Instant;
 
-use accel_bsp::{BspBuilder, BspTree};
+use accel_bsp::{BspBuilder, BspCosts, BspTree};
 use accel_bvh::{BvhBuilder, ObjectSplit};
 use accel_core::statistics::NodeKind;
 use accel_core::{
     AccelerationStructure, BuildError, DynStructure, InPackets, InvalidPrimitives, RaySegment,
-    Triangle,
+    SurfaceAreaHeuristic, Triangle,
 };
 use accel_kdtree::KdTree;
 
@@ -48,6 +48,8 @@ pub(super) struct TreeFacts {
     /// Of the leaves of one triangle, those that the traversal itself can answer.
     pub bounded_leaves: usize,
     pub node_bytes: usize,
+    /// By the default costs of the BSP tree, whatever the tree was built with.
+    pub surface_area_cost: f64,
 }
 
 /// Everything built over a scene.
@@ -154,6 +156,7 @@ pub(super) fn of_bsp(
     build_seconds: f64,
 ) -> TreeFacts {
     let shape = tree.shape();
+    let cost = tree.surface_area_cost(&BspCosts::default());
     TreeFacts {
         name,
         build_seconds,
@@ -163,10 +166,16 @@ pub(super) fn of_bsp(
         leaves_by_size: shape.leaves_by_size,
         bounded_leaves: shape.bounded_leaves,
         node_bytes: tree.node_bytes(),
+        surface_area_cost: cost.unwrap_or_default(),
     }
 }
 
 fn of_kd_tree(name: &'static str, tree: &KdTree<Triangle>, build_seconds: f64) -> TreeFacts {
+    let costs = BspCosts::default();
+    let heuristic = SurfaceAreaHeuristic {
+        traversal_cost: costs.axis_aligned,
+        intersection_cost: costs.intersection,
+    };
     let outline = tree.outline();
     let leaves = outline
         .nodes
@@ -190,6 +199,7 @@ fn of_kd_tree(name: &'static str, tree: &KdTree<Triangle>, build_seconds: f64) -
         leaves_by_size,
         bounded_leaves: 0,
         node_bytes: tree.node_bytes(),
+        surface_area_cost: tree.tree_statistics(&heuristic).sah_cost,
     }
 }
 

@@ -1,5 +1,5 @@
 //! Ize, Wald and Parker, *Ray Tracing with the BSP Tree*, 2008: Tables 1 to 3, Figure
-//! 3, the sweep of C_i of section 5.1 and the hot spot of section 5.2.
+//! 3, the sweep of C_i of section 5.1, one of the epsilon of section 3.2, and the hot spot of section 5.2.
 
 mod figure_3;
 mod frames;
@@ -13,7 +13,7 @@ mod tuning;
 mod unconfirmed;
 mod work;
 
-use accel_core::InvalidPrimitives;
+use accel_core::{DynStructure, InvalidPrimitives};
 
 use super::Found;
 use crate::registry;
@@ -58,7 +58,8 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
     let methods = &built.methods;
     let kd_tree = methods[0].structure.as_ref();
     let frames = Frames::new(scene, kd_tree, settings);
-    let (verified, disagreements) = verify(scene, methods, &frames.frames, settings)?;
+    let oracle = registry::oracle(&scene.triangles, settings.invalid)?;
+    let (mut verified, mut disagreements) = verify(methods, &frames.frames, &oracle);
     let speeds = Speeds::new(methods, &frames.frames, settings);
     let mut section = Section {
         heading: format!("{}, {} triangles", scene.name, scene.triangles.len()),
@@ -70,15 +71,20 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
         notes: notes(&built, &frames, settings),
         ..Section::default()
     };
-    if scene.triangles.len() <= sweep::MOST_TRIANGLES {
-        let (table, chart) = sweep::of_costs(&scene.triangles, &cast, settings, &built)?;
-        section.tables.push(table);
-        section.charts.push(chart);
-    } else {
-        section.notes.push(format!(
-            "C_i was not swept: the scene has more than {} triangles.",
-            sweep::MOST_TRIANGLES
-        ));
+    for sweep in &sweep::SWEEPS {
+        if scene.triangles.len() > sweep.most_triangles {
+            section.notes.push(format!(
+                "{} was not swept: the scene has more than {} triangles.",
+                sweep.name, sweep.most_triangles
+            ));
+            continue;
+        }
+        let expected = expected(&frames.frames[0], &oracle);
+        let found = sweep.run(&scene.triangles, &cast, &expected, settings, &built)?;
+        section.tables.push(found.table);
+        section.charts.push(found.chart);
+        verified += found.verified;
+        disagreements += found.disagreements;
     }
     let (_, bsp_tri) = built.bsp_tri();
     let pictures = figure_3::pictures(kd_tree, bsp_tri, scene.camera, settings.size);
@@ -92,21 +98,10 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
 
 /// Compares a sample of every frame's rays with brute force, for all methods that
 /// promise to agree: how many were compared, and how many answered differently.
-fn verify(
-    scene: &Scene,
-    methods: &[Method],
-    frames: &[Frame],
-    settings: &Settings,
-) -> anyhow::Result<(usize, usize)> {
-    // Whole packets, or they would not be packets.
-    const PACKET: usize = 16;
-    let oracle = registry::oracle(&scene.triangles, settings.invalid)?;
+fn verify(methods: &[Method], frames: &[Frame], oracle: &dyn DynStructure) -> (usize, usize) {
     let (mut verified, mut disagreements) = (0, 0);
-    for Frame { set, .. } in frames {
-        let packets = set.rays.chunks(PACKET);
-        let stride = packets.len().div_ceil(SAMPLE / PACKET).max(1);
-        let sample = packets.step_by(stride).flatten().copied().collect();
-        let expected = Expected::new(&oracle, set.kind.question(), sample, &|_| ());
+    for frame in frames {
+        let expected = expected(frame, oracle);
         let exact = methods
             .iter()
             .filter(|method| method.way != Way::Unconfirmed);
@@ -115,7 +110,18 @@ fn verify(
             disagreements += expected.disagreements(method.structure.as_ref()).len();
         }
     }
-    Ok((verified, disagreements))
+    (verified, disagreements)
+}
+
+/// Brute force's answers to a sample of a frame's rays.
+fn expected(frame: &Frame, oracle: &dyn DynStructure) -> Expected {
+    // Whole packets, or they would not be packets.
+    const PACKET: usize = 16;
+    let set = &frame.set;
+    let packets = set.rays.chunks(PACKET);
+    let stride = packets.len().div_ceil(SAMPLE / PACKET).max(1);
+    let sample = packets.step_by(stride).flatten().copied().collect();
+    Expected::new(oracle, set.kind.question(), sample, &|_| ())
 }
 
 /// What a reader must know of the tables.

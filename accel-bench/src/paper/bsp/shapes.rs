@@ -35,6 +35,7 @@ pub(super) fn table(scene: &str, trees: &[TreeFacts]) -> DocumentTable {
             "of one, of\nthe filled",
             "traversal-\nbased",
             "nodes\nMB",
+            "surface\narea cost",
         ],
         rows,
     }
@@ -60,6 +61,7 @@ fn measured(tree: &TreeFacts) -> TableRow {
         Figure::number(tree.single_percentage(), 1, " %"),
         Figure::count(tree.bounded_leaves),
         Figure::number(tree.node_bytes as f64 / 1e6, 2, ""),
+        Figure::number(tree.surface_area_cost, 2, ""),
     ]);
     TableRow {
         is_published: false,
@@ -80,6 +82,7 @@ fn quoted(name: &str, tree: &PublishedTree) -> TableRow {
     figures.extend([
         Figure::count(tree.largest_leaf),
         Figure::number(100.0 * tree.leaves[1] / filled, 1, " %"),
+        Figure::None,
         Figure::None,
         Figure::None,
     ]);
