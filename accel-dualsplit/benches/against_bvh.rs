@@ -9,7 +9,9 @@
 //! once; the structures then answer the same rays on one thread, in turns of a
 //! few hundred rays. In its turn a structure answers twice: first when the others have
 //! taken the caches, then from its own. The least time of each turn over all rounds
-//! counts, so that a busy machine disturbs little.
+//! counts, so that a busy machine disturbs little. With `ONLY=NAME` in the environment
+//! one structure is asked, once, so that a profiler can count what it does; with
+//! `FROM_INSIDE` the camera stands in the middle of the scene.
 #![allow(clippy::print_stdout)]
 
 use std::hint::black_box;
@@ -89,6 +91,7 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
     print_counts("wide", &wide, &count(&wide, &rays), &bvh, &source);
     println!("  convert: wide {wide_ms:.0} ms");
     let names = [
+        "BVH",
         "identical",
         "similar",
         "direct",
@@ -107,6 +110,15 @@ fn compare(triangles: &[Triangle]) -> Result<(), Box<dyn std::error::Error>> {
         &|rays| answer(&compact, rays),
         &|rays| answer(&wide, rays),
     ];
+    if let Ok(only) = std::env::var("ONLY") {
+        let named = names
+            .iter()
+            .zip(&answers)
+            .filter(|(name, _)| **name == only);
+        named.for_each(|(_, answer)| _ = answer(&rays));
+        println!("  {} rays", rays.len());
+        return Ok(());
+    }
     print_times(&names, &answers, &rays);
     Ok(())
 }
@@ -173,7 +185,7 @@ fn print_times(names: &[&str], answers: &[Answer<'_>], rays: &[RaySegment]) {
     let sums: Vec<_> = sums.collect();
     let [cold, warm] = sums[0].map(|ms| rays.len() as f64 / ms / 1e3);
     println!("  bvh {cold:.2} and {warm:.2} Mrays/s, first and second; times against it:");
-    for (name, sum) in names.iter().zip(&sums[1..]) {
+    for (name, sum) in names.iter().zip(&sums).skip(1) {
         let [cold, warm] = [sum[0] / sums[0][0], sum[1] / sums[0][1]];
         println!("    {name:18} {cold:.3} {warm:.3}");
     }
