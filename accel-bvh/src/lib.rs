@@ -71,6 +71,7 @@ mod sweep;
 mod traversal;
 mod validate;
 mod wide;
+mod wide_collapse;
 
 pub use builder::{BvhBuilder, ObjectSplit};
 pub use bvh::Bvh;
@@ -82,6 +83,7 @@ pub use node_rules::NodeRules;
 pub use reading::{BvhNode, NodeHandle};
 pub use reinsertion::Reinsertion;
 pub use wide::{WIDE_NODE_BYTES, WideBvh};
+pub use wide_collapse::{KeptNode, WideCollapse};
 
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};

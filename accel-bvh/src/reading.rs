@@ -56,34 +56,4 @@ impl<P: Primitive> Bvh<P> {
             }
         }
     }
-
-    /// Nodes that together hold what `handle` holds, `count` at most, in order: its
-    /// children; then, again and again, the inner one with the largest box gives way
-    /// to its children (Wald, Benthin and Boulos 2008). None for a leaf.
-    ///
-    /// # Panics
-    /// If `handle` is of another, larger tree.
-    pub fn opened(&self, handle: NodeHandle, count: usize) -> Vec<(NodeHandle, Aabb)> {
-        let mut nodes = Vec::with_capacity(count);
-        nodes.extend(self.children(handle));
-        while nodes.len() < count {
-            let inner = (0..nodes.len()).filter(|&place| !nodes[place].0.is_leaf());
-            let area = |place: &usize| nodes[*place].1.half_area();
-            let Some(largest) = inner.max_by(|a, b| area(a).total_cmp(&area(b))) else {
-                break;
-            };
-            let (opened, _) = nodes[largest];
-            nodes.splice(largest..=largest, self.children(opened));
-        }
-        nodes
-    }
-
-    /// The children of a node and their boxes; none of a leaf.
-    fn children(&self, handle: NodeHandle) -> impl Iterator<Item = (NodeHandle, Aabb)> + use<P> {
-        let children = match self.node(handle) {
-            BvhNode::Inner { bounds, children } => Some(children.into_iter().zip(bounds)),
-            BvhNode::Leaf(_) => None,
-        };
-        children.into_iter().flatten()
-    }
 }

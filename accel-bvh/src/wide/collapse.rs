@@ -5,7 +5,7 @@ use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
 use super::WideBvh;
 use super::node::{Pointer, Target, WIDTH, WideNode};
-use crate::{Bvh, BvhNode, NodeHandle};
+use crate::{Bvh, BvhNode, KeptNode, WideCollapse};
 
 impl<P: Primitive> WideBvh<P> {
     /// The wide form of `bvh`, whoever built that. The primitives in its leaves
@@ -26,14 +26,16 @@ impl<P: Primitive, L: LeafStorage<P>> WideBvh<P, L> {
     /// leaf numbers.
     pub fn with_storage(bvh: &Bvh<P>) -> Result<Self, BuildError> {
         let (stored, primitives) = AccelerationStructure::stored(bvh).emptied();
+        let kept = WideCollapse::new(bvh);
         let mut collapse = Collapse {
             bvh,
+            kept: &kept,
             primitives,
             nodes: Vec::new(),
             stored,
             depth: 0,
         };
-        let root = bvh.root().map(|root| collapse.run(root)).transpose()?;
+        let root = kept.root().map(|root| collapse.run(root)).transpose()?;
         Ok(Self {
             nodes: collapse.nodes,
             stored: collapse.stored,
@@ -43,10 +45,9 @@ impl<P: Primitive, L: LeafStorage<P>> WideBvh<P, L> {
     }
 }
 
-type Child = (NodeHandle, Aabb);
-
 struct Collapse<'a, P: Primitive, L: LeafStorage<P>> {
     bvh: &'a Bvh<P>,
+    kept: &'a WideCollapse<'a, P, WIDTH>,
     primitives: Vec<P>,
     nodes: Vec<WideNode>,
     stored: StoredPrimitives<P, L>,
@@ -55,7 +56,7 @@ struct Collapse<'a, P: Primitive, L: LeafStorage<P>> {
 
 /// An inner node of the binary tree that becomes a wide one.
 struct Pending {
-    handle: NodeHandle,
+    node: KeptNode,
     depth: u32,
     /// The wide node and the place in it that name this one.
     parent: Option<(usize, usize)>,
@@ -63,46 +64,46 @@ struct Pending {
 
 impl<P: Primitive, L: LeafStorage<P>> Collapse<'_, P, L> {
     /// Writes all nodes in depth-first order; returns the root.
-    fn run(&mut self, (root, bounds): Child) -> Result<(Pointer, Aabb), BuildError> {
-        if let BvhNode::Leaf(leaf) = self.bvh.node(root) {
+    fn run(&mut self, root: KeptNode) -> Result<(Pointer, Aabb), BuildError> {
+        let bounds = root.bounds;
+        if let BvhNode::Leaf(leaf) = self.bvh.node(root.handle) {
             return Ok((self.leaf(leaf)?, bounds));
         }
         let mut pending = vec![Pending {
-            handle: root,
+            node: root,
             depth: 0,
             parent: None,
         }];
-        while let Some(node) = pending.pop() {
+        while let Some(next) = pending.pop() {
             let index = self.nodes.len();
-            if let Some((parent, place)) = node.parent {
+            if let Some((parent, place)) = next.parent {
                 let pointer = Pointer::new(Target::Inner(index as u32))?;
                 self.nodes[parent].set_child(place, pointer);
             }
-            let children = self.bvh.opened(node.handle, WIDTH);
+            let children = self.kept.children(&next.node);
             let encoded = self.encode(&children)?;
             self.nodes.push(encoded);
-            let depth = node.depth + 1;
+            let depth = next.depth + 1;
             self.depth = self.depth.max(depth);
-            let inner = children.iter().enumerate().rev();
-            pending.extend(inner.filter(|(_, (handle, _))| !handle.is_leaf()).map(
-                |(place, &(handle, _))| Pending {
-                    handle,
-                    depth,
-                    parent: Some((index, place)),
-                },
-            ));
+            let inner = children.into_iter().enumerate().rev();
+            let inner = inner.filter(|(_, child)| !child.handle.is_leaf());
+            pending.extend(inner.map(|(place, node)| Pending {
+                node,
+                depth,
+                parent: Some((index, place)),
+            }));
         }
         Ok((Pointer::new(Target::Inner(0))?, bounds))
     }
 
     /// The node of these children; inner ones are named when they are written.
-    fn encode(&mut self, children: &[Child]) -> Result<WideNode, BuildError> {
-        let encoded = children.iter().map(|&(handle, bounds)| {
-            let pointer = match self.bvh.node(handle) {
+    fn encode(&mut self, children: &[KeptNode]) -> Result<WideNode, BuildError> {
+        let encoded = children.iter().map(|child| {
+            let pointer = match self.bvh.node(child.handle) {
                 BvhNode::Leaf(leaf) => self.leaf(leaf)?,
                 BvhNode::Inner { .. } => Pointer::new(Target::Nothing)?,
             };
-            Ok((pointer, bounds))
+            Ok((pointer, child.bounds))
         });
         Ok(WideNode::new(
             &encoded.collect::<Result<Vec<_>, BuildError>>()?,

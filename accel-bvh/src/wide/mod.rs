@@ -1,14 +1,15 @@
 //! The wide BVH: eight children a node, whose boxes one test of eight lanes
 //! decides.
 //!
-//! Collapsed from a binary [`Bvh`](crate::Bvh), whatever built it: a node takes in
-//! the child of the largest box, and again, until it has eight. A ray then visits
-//! a third as many nodes, each of which is one wait for memory and a few
+//! Collapsed from a binary [`Bvh`](crate::Bvh), whatever built it, so that the nodes
+//! that stay have the least area ([`WideCollapse`](crate::WideCollapse)). A ray then
+//! visits a third as many nodes, each of which is one wait for memory and a few
 //! instructions on all children at once.
 //!
 //! # Source
 //! Wald, Benthin and Boulos, *Getting Rid of Packets: Efficient SIMD Single-Ray
-//! Traversal using Multi-branching BVHs*, 2008.
+//! Traversal using Multi-branching BVHs*, 2008; the collapse is that of Ylitie, Karras
+//! and Laine 2017.
 
 mod collapse;
 mod node;

@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! convert(inner node of the BVH, region that is left of space):
-//!     children := it opened to eight, as for a wide BVH
+//!     children := those that a wide BVH has there
 //!     for each child: the at most four planes of its box that leave least of the region
 //!     convert the children, each in the region that its planes leave
 //! ```
 
-use accel_bvh::{Bvh, BvhNode, NodeHandle};
+use accel_bvh::{Bvh, BvhNode, KeptNode, WideCollapse};
 use accel_core::{Aabb, AccelerationStructure, BuildError, Primitive};
 
 use super::WideDualSplitTree;
@@ -25,8 +25,9 @@ impl<P: Primitive> WideDualSplitTree<P> {
     /// numbers.
     pub fn from_bvh(bvh: &Bvh<P>) -> Result<Self, BuildError> {
         let mut words = Vec::new();
-        let root = match bvh.root() {
-            Some((handle, bounds)) => Some((convert(bvh, handle, bounds, &mut words)?, bounds)),
+        let kept = WideCollapse::new(bvh);
+        let root = match kept.root() {
+            Some(root) => Some((convert(bvh, &kept, root, &mut words)?, root.bounds)),
             None => None,
         };
         words.resize(words.len() + PADDING, 0);
@@ -40,7 +41,7 @@ impl<P: Primitive> WideDualSplitTree<P> {
 
 /// A node of the BVH whose own is still to be written.
 struct Pending {
-    handle: NodeHandle,
+    node: KeptNode,
     /// What is left of space.
     region: Aabb,
     /// The word that says where it is; `None` for the root.
@@ -49,18 +50,18 @@ struct Pending {
 
 fn convert<P: Primitive>(
     bvh: &Bvh<P>,
-    root: NodeHandle,
-    bounds: Aabb,
+    kept: &WideCollapse<'_, P, LANES>,
+    root: KeptNode,
     words: &mut Vec<u32>,
 ) -> Result<WidePointer, BuildError> {
     let mut first = None;
     let mut pending = vec![Pending {
-        handle: root,
-        region: bounds,
+        node: root,
+        region: root.bounds,
         pointer: None,
     }];
     while let Some(next) = pending.pop() {
-        let target = match bvh.node(next.handle) {
+        let target = match bvh.node(next.node.handle) {
             BvhNode::Leaf(leaf) => Target::Leaf(leaf),
             BvhNode::Inner { .. } => Target::Inner(words.len() as u32),
         };
@@ -77,7 +78,7 @@ fn convert<P: Primitive>(
             None => first = Some(pointer),
         }
         if matches!(target, Target::Inner(_)) {
-            push_children(bvh, &next, words, &mut pending);
+            push_children(kept, &next, words, &mut pending);
         }
     }
     Ok(first.expect("the root comes first"))
@@ -85,21 +86,21 @@ fn convert<P: Primitive>(
 
 /// Writes the node of an inner node of the BVH; its children are then pending.
 fn push_children<P: Primitive>(
-    bvh: &Bvh<P>,
-    node: &Pending,
+    kept: &WideCollapse<'_, P, LANES>,
+    parent: &Pending,
     words: &mut Vec<u32>,
     pending: &mut Vec<Pending>,
 ) {
-    let children = bvh.opened(node.handle, LANES);
+    let children = kept.children(&parent.node);
     let carved: Vec<_> = children
         .iter()
-        .map(|&(_, bounds)| planes_towards(node.region, bounds))
+        .map(|child| planes_towards(parent.region, child.bounds))
         .collect();
     let planes: Vec<_> = carved.iter().map(|&(planes, _)| planes).collect();
     let pointers = push_node(words, &planes);
     let new = children.into_iter().zip(carved).zip(pointers..);
-    let new = new.map(|(((handle, _), (_, region)), pointer)| Pending {
-        handle,
+    let new = new.map(|((node, (_, region)), pointer)| Pending {
+        node,
         region,
         pointer: Some(pointer),
     });
