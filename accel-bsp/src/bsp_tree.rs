@@ -7,32 +7,26 @@ use accel_core::query::Query;
 use accel_core::statistics::{NodeKind as StatisticsKind, TraversalStatistics, TreeOutline};
 use accel_core::{Aabb, AccelerationStructure, PreparedRay, Primitive};
 
-use crate::crossing::Tolerance;
+use crate::crossing::{PlaneLimits, Tolerance};
 use crate::node::{Node, NodeKind};
+use crate::nodes::Nodes;
 use crate::plane_tracking::Untracked;
 use crate::polytope::Polytope;
 use crate::traversal::traverse;
 
-/// A general BSP tree in nodes of 20 bytes. Made by
+/// A general BSP tree in nodes of 8 bytes, and 16 for each plane that is not
+/// axis-aligned. Made by
 /// [`BspBuilder`](crate::BspBuilder); owns its primitives.
 #[derive(Clone, Debug)]
 pub struct BspTree<P: Primitive> {
-    pub(crate) nodes: Vec<Node>,
+    pub(crate) nodes: Nodes,
     pub(crate) stored: StoredPrimitives<P>,
     /// `None` where there is nothing to hit.
     pub(crate) bounds: Option<Aabb>,
     /// Edges from the root to the deepest leaf.
     pub(crate) depth: u32,
-    /// The largest magnitudes of the numbers of planes that are not axis-aligned,
-    /// from [`largest_of`].
+    /// From [`Nodes::largest`].
     pub(crate) largest: Vec4,
-}
-
-/// See [`BspTree::largest`].
-pub(crate) fn largest_of(nodes: &[Node]) -> Vec4 {
-    let planes = nodes.iter().filter(|node| node.is_general());
-    let magnitudes = planes.map(|node| node.plane_words().abs());
-    magnitudes.fold(Vec4::ZERO, Vec4::max)
 }
 
 /// How many nodes and leaves of each kind a [`BspTree`] has: the rows of Table 3
@@ -63,15 +57,24 @@ impl<P: Primitive> BspTree<P> {
     }
 
     /// The ids of a leaf; none of an inner node.
-    pub(crate) fn ids_of(&self, node: Node) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn ids_of(&self, node: &Node) -> impl Iterator<Item = u32> + '_ {
         let leaf = node.leaf_number().into_iter();
         leaf.flat_map(|leaf| self.stored.leaves().leaf_ids(leaf))
+    }
+
+    /// What a ray must know of all planes.
+    #[inline]
+    pub(crate) fn plane_limits(&self) -> PlaneLimits {
+        PlaneLimits {
+            general: self.largest,
+            slacks: self.nodes.slacks(),
+        }
     }
 
     /// Counts nodes and leaves by kind.
     pub fn shape(&self) -> BspShape {
         let mut shape = BspShape::default();
-        for node in &self.nodes {
+        for node in self.nodes.iter() {
             let size = match node.kind() {
                 NodeKind::AxisAligned { .. } => {
                     shape.axis_aligned += 1;
@@ -124,7 +127,7 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
     }
 
     fn node_bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
+        self.nodes.bytes()
     }
 
     /// Areas are those of the cells, bounds the boxes around them.
@@ -139,13 +142,13 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
         let mut pending: Vec<(Option<u32>, Polytope, Option<u32>)> = root.into_iter().collect();
         while let Some((index, cell, parent)) = pending.pop() {
             // A part that holds nothing has no node.
-            let node = index.map(|index| self.nodes[index as usize]);
+            let node = index.map(|index| self.nodes.node(index));
             let [low, high] = cell.bounds();
             let bounds = Aabb {
                 min: rounding::vec3_down(low),
                 max: rounding::vec3_up(high),
             };
-            let position = match node.and_then(|node| Some((node, node.plane()?))) {
+            let position = match node.and_then(|node| Some((node, self.nodes.split_plane(node)?))) {
                 Some((node, plane)) => {
                     let position = outline.push_inner(StatisticsKind::Inner, bounds, parent);
                     // The planes of a loaded tree may miss their cells.

@@ -4,6 +4,7 @@
 use accel_core::{Aabb, Polygonal};
 
 use crate::node::{Node, NodeKind};
+use crate::nodes::Nodes;
 use crate::polytope::{CutError, Polytope};
 use crate::split_plane::SplitPlane;
 use crate::{BspCosts, BspTree};
@@ -21,9 +22,9 @@ pub(crate) struct Ancestor {
 /// # Errors
 /// If a plane does not cut its cell, which no built tree has.
 pub(crate) fn for_each_cell(
-    nodes: &[Node],
+    nodes: &Nodes,
     bounds: &Aabb,
-    mut visit: impl FnMut(usize, &Polytope, &[Ancestor]),
+    mut visit: impl FnMut(u32, &Polytope, &[Ancestor]),
 ) -> Result<(), CutError> {
     let mut path: Vec<Ancestor> = Vec::new();
     let mut pending = vec![(0, None, Polytope::of_box(bounds))];
@@ -33,13 +34,13 @@ pub(crate) fn for_each_cell(
             path.push(parent);
         }
         visit(index, &cell, &path);
-        let node: Node = nodes[index];
-        if let Some(plane) = node.plane() {
+        let node = nodes.node(index);
+        if let Some(plane) = nodes.split_plane(node) {
             let [behind, in_front] = cell.cut(&plane)?;
             for (is_in_front, part) in [(true, in_front), (false, behind)] {
                 if let Some(child) = node.child(u32::from(is_in_front)) {
                     let parent = Ancestor { plane, is_in_front };
-                    pending.push((child as usize, Some((parent, path.len())), part));
+                    pending.push((child, Some((parent, path.len())), part));
                 }
             }
         }
@@ -57,15 +58,15 @@ impl<P: Polygonal> BspTree<P> {
         let bounds = self.bounds?;
         for_each_cell(&self.nodes, &bounds, |index, cell, _| {
             whole.get_or_insert(cell.area());
-            sum += cell.area() * self.node_cost(self.nodes[index], costs);
+            sum += cell.area() * self.node_cost(self.nodes.node(index), costs);
         })
         .ok()?;
         // A scene without extent costs what its root does.
         let whole = whole.filter(|&area| area > 0.0);
-        Some(whole.map_or(self.node_cost(self.nodes[0], costs), |area| sum / area))
+        Some(whole.map_or(self.node_cost(self.nodes.node(0), costs), |area| sum / area))
     }
 
-    fn node_cost(&self, node: Node, costs: &BspCosts) -> f64 {
+    fn node_cost(&self, node: &Node, costs: &BspCosts) -> f64 {
         match node.kind() {
             NodeKind::AxisAligned { .. } => costs.axis_aligned,
             NodeKind::General { .. } => costs.general,

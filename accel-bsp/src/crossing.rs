@@ -19,7 +19,8 @@ use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
 use accel_core::glam::{DVec4, Vec3, Vec4};
 use accel_core::ray::{max_or_keep, min_or_keep};
 
-use crate::node::Node;
+use crate::node::{AXES_AND_CLASSES, Node};
+use crate::shared_slacks::SharedSlacks;
 
 /// What tau is made of. Both parts are needed: tests show that hits are lost
 /// without either.
@@ -48,14 +49,24 @@ const ALONG_THE_RAY: f32 = HIT_ROUNDING + 12.0 * UNIT_ROUNDOFF;
 /// How far the signed distance of the origin may be off, relative to its terms.
 const AT_THE_ORIGIN: f32 = 8.0 * UNIT_ROUNDOFF;
 
+/// How far the origin may be off when the slack has moved it, relative to itself.
+const MOVED_ORIGIN: f32 = 2.0 * UNIT_ROUNDOFF;
+
 const SIGN: u32 = 1 << 31;
+
+/// What a ray must know of all planes of a tree before it meets one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaneLimits {
+    /// Of general planes, the largest magnitudes of normals and offsets.
+    pub general: Vec4,
+    /// Of axis-aligned ones.
+    pub slacks: SharedSlacks,
+}
 
 /// What tells where a ray crosses planes.
 pub(crate) struct Crossings<'a> {
     pub ray: &'a PreparedRay,
-    /// By axis. A fourth entry, never read, spares the check of two bits against
-    /// three.
-    axes: [AxisCrossing; 4],
+    axes: AxisCrossings,
     /// With the plane's normal and offset, the signed distance of the origin.
     origin: Vec4,
     /// Likewise the slope.
@@ -68,16 +79,53 @@ pub(crate) struct Crossings<'a> {
     slack: f32,
 }
 
-/// What tells where the ray crosses planes orthogonal to one axis.
-#[derive(Clone, Copy)]
-struct AxisCrossing {
-    origin: f32,
-    /// What makes the slack reach backwards along the ray.
-    slack_factor: f32,
-    entry_reciprocal: f32,
-    exit_reciprocal: f32,
+/// What tells where the ray crosses axis-aligned planes, by axis and class of slack
+/// ([`Node::axis_and_class`]). Entries 3 and 7 are never read, and spare checks.
+struct AxisCrossings {
+    /// The origin, moved forwards along the ray by the slack of planes: so are both
+    /// ends of the slack met without a sum for each plane.
+    entry_origins: [f32; AXES_AND_CLASSES],
+    /// Moved backwards.
+    exit_origins: [f32; AXES_AND_CLASSES],
+    entry_reciprocals: [f32; AXES_AND_CLASSES],
+    exit_reciprocals: [f32; AXES_AND_CLASSES],
     /// 0 if the ray is behind planes first, 1 if in front of them.
-    near_child: u32,
+    near_children: [u32; AXES_AND_CLASSES],
+}
+
+impl AxisCrossings {
+    #[inline]
+    fn new(ray: &PreparedRay, slacks: SharedSlacks, tolerance: Tolerance) -> Self {
+        let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
+        let (origin, reciprocal) = (ray.origin().extend(0.0), ray.reciprocal().extend(1.0));
+        let moved_by = |slack: f32, sign: f32| {
+            // With what moving the origin rounds.
+            let slack = Vec4::splat(slack * tolerance.slack)
+                + origin.abs() * (MOVED_ORIGIN * tolerance.rounding);
+            let moved = origin + sign * slack.copysign(reciprocal);
+            // Beyond all numbers nothing can be told of a side, and NaN visits both.
+            moved + moved * 0.0
+        };
+        let both = |sign| twice(moved_by(slacks.small, sign), moved_by(slacks.large, sign));
+        let scaled = |share| twice(reciprocal * share, reciprocal * share);
+        let [x, y, z] = Axis::ALL.map(|axis| u32::from(ray.is_negative(axis)));
+        Self {
+            entry_origins: both(1.0),
+            exit_origins: both(-1.0),
+            entry_reciprocals: scaled(1.0 - along_the_ray),
+            exit_reciprocals: scaled(1.0 + along_the_ray),
+            near_children: [x, y, z, 0, x, y, z, 0],
+        }
+    }
+}
+
+/// What is looked up for planes of small slack, and of large.
+#[inline]
+fn twice(small: Vec4, large: Vec4) -> [f32; AXES_AND_CLASSES] {
+    let mut both = [0.0; AXES_AND_CLASSES];
+    small.write_to_slice(&mut both[..4]);
+    large.write_to_slice(&mut both[4..]);
+    both
 }
 
 /// The part of the ray inside a node.
@@ -107,33 +155,17 @@ pub(crate) struct GeneralCrossing {
 }
 
 impl<'a> Crossings<'a> {
-    /// For a tree whose planes have numbers of at most these magnitudes.
+    /// For a tree whose planes have these limits.
     #[inline]
-    pub(crate) fn new(ray: &'a PreparedRay, largest: Vec4, tolerance: Tolerance) -> Self {
+    pub(crate) fn new(ray: &'a PreparedRay, limits: PlaneLimits, tolerance: Tolerance) -> Self {
         let (origin, direction) = (ray.origin(), ray.direction());
         let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
         let at_the_origin = AT_THE_ORIGIN * tolerance.rounding;
-        let along = |axis: Axis| {
-            let reciprocal = axis.of(ray.reciprocal());
-            let is_negative = ray.is_negative(axis);
-            AxisCrossing {
-                origin: axis.of(origin),
-                slack_factor: if is_negative {
-                    -tolerance.slack
-                } else {
-                    tolerance.slack
-                },
-                entry_reciprocal: reciprocal * (1.0 - along_the_ray),
-                exit_reciprocal: reciprocal * (1.0 + along_the_ray),
-                near_child: u32::from(is_negative),
-            }
-        };
-        let [x, y, z] = Axis::ALL.map(along);
         let magnitudes = (origin.abs() + direction.abs()).extend(1.0);
-        let may_overflow = !(2.0 * largest.dot(magnitudes)).is_finite();
+        let may_overflow = !(2.0 * limits.general.dot(magnitudes)).is_finite();
         Self {
             ray,
-            axes: [x, y, z, z],
+            axes: AxisCrossings::new(ray, limits.slacks, tolerance),
             origin: origin.extend(-1.0),
             direction: direction.extend(0.0),
             rounding_at_origin: origin.abs().extend(1.0) * at_the_origin,
@@ -150,19 +182,17 @@ impl<'a> Crossings<'a> {
     }
 
     /// The fast path of a kd-tree. The slack is a little more than the build used,
-    /// for the rounding of the two sums.
+    /// for the rounding of the difference.
     #[inline]
     pub(crate) fn axis_aligned(&self, node: &Node, interval: Interval) -> Sides {
-        let crossing = &self.axes[node.axis_index()];
-        let nearer = crossing.near_child;
-        let (position, slack) = node.position_and_slack();
-        let distance = position - crossing.origin;
-        let slack = slack * crossing.slack_factor;
-        let exit = (distance + slack) * crossing.exit_reciprocal;
+        let (axes, index) = (&self.axes, node.axis_and_class());
+        let nearer = axes.near_children[index];
+        let position = node.position();
+        let exit = (position - axes.exit_origins[index]) * axes.exit_reciprocals[index];
         if exit < interval.near {
             return Sides::One(1 - nearer);
         }
-        let entry = (distance - slack) * crossing.entry_reciprocal;
+        let entry = (position - axes.entry_origins[index]) * axes.entry_reciprocals[index];
         if entry > interval.far {
             return Sides::One(nearer);
         }
@@ -196,7 +226,8 @@ impl<'a> Crossings<'a> {
     }
 
     /// Where the ray crosses an axis-aligned plane, exactly.
-    pub(crate) fn axis_aligned_at(&self, axis: usize, position: f32) -> f64 {
+    pub(crate) fn axis_aligned_at(&self, node: &Node) -> f64 {
+        let (axis, position) = (node.axis_and_class() % 4, node.position());
         let [origin, direction]: [DVec4; 2] = [self.origin, self.direction].map(Vec4::as_dvec4);
         (f64::from(position) - origin[axis]) / direction[axis]
     }

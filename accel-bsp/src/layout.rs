@@ -1,14 +1,17 @@
 //! From a build tree to nodes.
 
+use std::collections::HashMap;
+
 use accel_core::build::{BuildNode, BuildTree, Cursor};
 use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, BuildError, Polygonal, Primitive};
 
-use crate::bsp_tree::largest_of;
 use crate::candidates::planes_of;
-use crate::node::{MAX_INDEX, NODE_BYTES, Node};
+use crate::node::{MAX_INDEX, NODE_BYTES, Node, NodePlane};
+use crate::nodes::{Nodes, PLANE_BYTES};
 use crate::pieces::{margin, pad_of};
+use crate::shared_slacks::{SharedSlacks, SlackCounts};
 use crate::split_plane::SplitPlane;
 use crate::{BspBuilder, BspTree, SingleLeaves};
 
@@ -16,7 +19,7 @@ impl<P: Primitive> BspTree<P> {
     /// The tree over nothing that can be hit.
     pub(crate) fn empty(primitives: &[P], skipped: usize) -> Self {
         Self {
-            nodes: Vec::new(),
+            nodes: Nodes::new(SharedSlacks::default(), 0),
             stored: StoredPrimitives::new(primitives, skipped, 0),
             bounds: None,
             depth: 0,
@@ -45,43 +48,55 @@ impl<P: Polygonal> BspTree<P> {
             });
         }
         let storage = references * (size_of::<P>() + 2 * size_of::<u32>());
-        let bytes = tree.bytes() + (inner + leaves) * NODE_BYTES + storage;
+        let (planes, slacks) = survey(tree);
+        let planes = planes + leaves.min(primitives.len());
+        let nodes = (inner + leaves) * NODE_BYTES + planes * PLANE_BYTES;
+        let bytes = tree.bytes() + nodes + storage;
         builder.budget.check_bytes(bytes)?;
         let mut packed = Self {
-            nodes: Vec::with_capacity(inner + leaves),
+            nodes: Nodes::new(slacks, inner + leaves),
             stored: StoredPrimitives::new(primitives, skipped, references),
             bounds: Some(bounds),
             depth: 0,
             largest: Vec4::ZERO,
         };
-        packed.nodes.push(Node::leaf(0));
-        let mut pending = vec![(tree.root(), 0, 0)];
-        while let Some((cursor, position, depth)) = pending.pop() {
+        let mut known = KnownPlanes::default();
+        let mut pending = vec![(tree.root(), packed.nodes.push(Node::leaf(0)), 0)];
+        while let Some((cursor, index, depth)) = pending.pop() {
             packed.depth = packed.depth.max(depth);
-            packed.nodes[position] = match cursor.node() {
-                BuildNode::Leaf(ids) => packed.leaf(builder, primitives, ids),
+            let node = match cursor.node() {
+                BuildNode::Leaf(ids) => packed.leaf(builder, primitives, ids, &mut known),
                 BuildNode::Inner { node, children } => {
                     let are_there = children.each_ref().map(holds_any);
-                    let inner = Node::inner(node, packed.nodes.len() as u32, are_there);
-                    for side in [1, 0] {
-                        if let Some(place) = inner.child(side) {
-                            pending.push((children[side as usize], place as usize, depth + 1));
-                            packed.nodes.push(Node::leaf(0));
+                    let plane = known.of_node(node, &mut packed.nodes);
+                    let inner = Node::inner(plane, packed.nodes.len() as u32, are_there);
+                    let first = pending.len();
+                    for (cursor, is_there) in children.into_iter().zip(are_there) {
+                        if is_there {
+                            pending.push((cursor, packed.nodes.push(Node::leaf(0)), depth + 1));
                         }
                     }
+                    pending[first..].reverse();
                     inner
                 }
             };
+            packed.nodes.replace(index, node);
         }
         packed.nodes.shrink_to_fit();
-        packed.largest = largest_of(&packed.nodes);
+        packed.largest = packed.nodes.largest();
         if builder.single_leaves == SingleLeaves::Bounded {
             packed.mark_bounded_leaves(primitives);
         }
         Ok(packed)
     }
 
-    fn leaf(&mut self, builder: &BspBuilder, primitives: &[P], ids: &[u32]) -> Node {
+    fn leaf(
+        &mut self,
+        builder: &BspBuilder,
+        primitives: &[P],
+        ids: &[u32],
+        known: &mut KnownPlanes,
+    ) -> Node {
         let leaf = self.stored.leaves_mut().push_leaf(primitives, ids);
         let plane = match ids {
             [id] if builder.single_leaves == SingleLeaves::Planar => {
@@ -89,8 +104,57 @@ impl<P: Polygonal> BspTree<P> {
             }
             _ => None,
         };
-        plane.map_or(Node::leaf(leaf), |plane| Node::planar_leaf(leaf, &plane))
+        plane.map_or(Node::leaf(leaf), |plane| {
+            Node::planar_leaf(leaf, known.number_of(&plane, &mut self.nodes))
+        })
     }
+}
+
+/// The numbers of planes by their bits. A primitive's plane splits several nodes, and
+/// stands in its leaves.
+#[derive(Default)]
+struct KnownPlanes(HashMap<[u32; 4], u32>);
+
+impl KnownPlanes {
+    fn of_node(&mut self, plane: &SplitPlane, nodes: &mut Nodes) -> NodePlane {
+        let (_, position, slack) = plane.stored();
+        match plane.axis() {
+            Some(axis) => NodePlane::AxisAligned {
+                axis,
+                position,
+                slack: nodes.slacks().class_of(slack),
+            },
+            None => NodePlane::General(self.number_of(plane, nodes)),
+        }
+    }
+
+    /// Of a plane that is not axis-aligned.
+    fn number_of(&mut self, plane: &SplitPlane, nodes: &mut Nodes) -> u32 {
+        debug_assert!(plane.axis().is_none());
+        let (normal, offset, _) = plane.stored();
+        let plane = normal.extend(offset);
+        let bits = plane.to_array().map(f32::to_bits);
+        *self
+            .0
+            .entry(bits)
+            .or_insert_with(|| nodes.push_plane(plane))
+    }
+}
+
+/// How many planes are not axis-aligned, and what the others share.
+fn survey(tree: &BuildTree<SplitPlane>) -> (usize, SharedSlacks) {
+    let (mut general, mut slacks) = (0, SlackCounts::default());
+    let mut pending = vec![tree.root()];
+    while let Some(cursor) = pending.pop() {
+        if let BuildNode::Inner { node, children } = cursor.node() {
+            pending.extend(children);
+            match node.axis() {
+                Some(_) => slacks.count(node.stored().2),
+                None => general += 1,
+            }
+        }
+    }
+    (general, slacks.shared())
 }
 
 fn holds_any(node: &Cursor<'_, SplitPlane>) -> bool {

@@ -33,7 +33,8 @@
 //! [`BspBuilder`] takes settings; `search` finds the best of the planes of
 //! `candidates`, with the counts of `ends` and `sphere_hierarchy` and the areas of
 //! `polytope`, by the costs of `cost`; `pieces` divides what the node holds and
-//! `allowance` what it may use; `layout` packs the tree into the nodes of `node`;
+//! `allowance` what it may use; `layout` packs the tree into the nodes of `node`
+//! and the planes of `nodes`, those along the axes with the slacks of `shared_slacks`;
 //! `traversal` walks them by the `crossing` of ray and plane, `packet` with many
 //! rays of one origin at once; `traversal_based` and
 //! `unconfirmed` are the paper's triangle test without a triangle test; `cells`
@@ -54,12 +55,14 @@ mod crossing;
 mod ends;
 mod layout;
 mod node;
+mod nodes;
 mod packet;
 mod persistence;
 mod pieces;
 mod plane_tracking;
 mod polytope;
 mod search;
+mod shared_slacks;
 mod sphere_hierarchy;
 mod split_plane;
 mod traversal;
@@ -71,6 +74,7 @@ pub use builder::{BspBuilder, SingleLeaves};
 pub use candidates::{CandidatePlanes, GeneralPlanes};
 pub use cost::BspCosts;
 pub use node::NODE_BYTES;
+pub use nodes::PLANE_BYTES;
 pub use unconfirmed::UnconfirmedHit;
 
 pub use accel_core::layout::{Indexed, LeafOrdered};

@@ -1,7 +1,8 @@
 //! Saving a tree, and loading it from bytes that nobody vouches for.
 //!
 //! ```text
-//! skipped primitives; six words of the root's box; nodes, five words each;
+//! skipped primitives; six words of the root's box; the two slacks of axis-aligned
+//! planes; other planes, four words each; nodes, two words each;
 //! for every leaf, back to front in depth: its count and its ids
 //! ```
 
@@ -9,16 +10,17 @@ use accel_core::archive::{
     ArchiveReader, ArchiveWriter, LeafLoader, LoadError, check_limit, scene_of_slice,
     scene_of_structure,
 };
-use accel_core::glam::Vec3;
+use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, BuildBudget, Polygonal};
 
 use crate::BspTree;
-use crate::bsp_tree::largest_of;
-use crate::node::{NODE_WORDS, Node};
+use crate::node::{MAX_INDEX, Node};
+use crate::nodes::Nodes;
+use crate::shared_slacks::SharedSlacks;
 
 const KIND: [u8; 8] = *b"accelbsp";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl<P: Polygonal> BspTree<P> {
     /// The tree as bytes, without its primitives, on any machine the same.
@@ -27,15 +29,22 @@ impl<P: Polygonal> BspTree<P> {
         let mut archive = ArchiveWriter::new(KIND, VERSION, scene);
         archive.push(self.skipped_count() as u32);
         archive.push_bounds(&self.bounds.unwrap_or(Aabb::EMPTY));
+        let SharedSlacks { small, large } = self.nodes.slacks();
+        archive.push(small.to_bits());
+        archive.push(large.to_bits());
+        archive.push(self.nodes.planes().len() as u32);
+        for number in self.nodes.planes().iter().flat_map(Vec4::to_array) {
+            archive.push(number.to_bits());
+        }
         archive.push(self.nodes.len() as u32);
-        for node in &self.nodes {
+        for node in self.nodes.iter() {
             node.to_words()
                 .into_iter()
                 .for_each(|word| archive.push(word));
         }
         let mut pending = Vec::from_iter(self.bounds.map(|_| 0));
         while let Some(index) = pending.pop() {
-            let node = self.nodes[index as usize];
+            let node = self.nodes.node(index);
             pending.extend(node.children().into_iter().rev().flatten());
             if let Some(leaf) = node.leaf_number() {
                 let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
@@ -55,25 +64,26 @@ impl<P: Polygonal> BspTree<P> {
         let mut archive = ArchiveReader::new(bytes, KIND, VERSION, scene)?;
         let leaves = LeafLoader::new(primitives, &mut archive)?;
         let bounds = archive.bounds()?;
-        let node_count = archive.count(NODE_WORDS)?;
-        let mut nodes = Vec::with_capacity(node_count);
-        for _ in 0..node_count {
-            let mut words = [0; NODE_WORDS];
-            for word in &mut words {
-                *word = archive.word()?;
-            }
-            nodes.push(Node::from_words(words));
-        }
+        let slacks = SharedSlacks {
+            small: finite(&mut archive)?,
+            large: finite(&mut archive)?,
+        };
+        let plane_count = archive.count(4)?;
+        let planes = (0..plane_count).map(|_| read_plane(&mut archive));
+        let planes = planes.collect::<Result<_, _>>()?;
+        let node_count = archive.count(2)?;
+        let nodes = (0..node_count).map(|_| read_node(&mut archive));
+        let nodes = nodes.collect::<Result<_, _>>()?;
         let mut loading = Loading {
             archive,
             leaves,
-            nodes,
+            nodes: Nodes::of_parts(nodes, planes, slacks),
             depth: 0,
         };
         loading.read_leaves()?;
         loading.archive.finish()?;
         Ok(Self {
-            largest: largest_of(&loading.nodes),
+            largest: loading.nodes.largest(),
             nodes: loading.nodes,
             stored: loading.leaves.finish()?,
             bounds: (node_count > 0).then_some(bounds),
@@ -85,7 +95,7 @@ impl<P: Polygonal> BspTree<P> {
 struct Loading<'a, P: Polygonal> {
     archive: ArchiveReader<'a>,
     leaves: LeafLoader<'a, P>,
-    nodes: Vec<Node>,
+    nodes: Nodes,
     depth: u32,
 }
 
@@ -105,19 +115,46 @@ impl<P: Polygonal> Loading<'_, P> {
             }
             met += 1;
             self.depth = self.depth.max(depth);
-            let node = self.nodes[index];
-            if !node.is_finite() {
+            let node = self.nodes.node(index as u32);
+            if node.is_general() {
+                let (number, count) = (node.plane_number(), self.nodes.planes().len());
+                check_limit("number of a plane", u64::from(number) + 1, count as u64)?;
+            } else if !node.is_leaf() && !node.position().is_finite() {
                 return out_of_range("a plane that is not finite at node", index as u64, 0);
             }
             let children = node.children().into_iter().rev().flatten();
             pending.extend(children.map(|child| (child as usize, depth + 1)));
             if node.is_leaf() {
                 let leaf = self.leaves.read_leaf(&mut self.archive)?;
-                self.nodes[index] = node.with_leaf_number(leaf);
+                check_limit("leaf", leaf.into(), MAX_INDEX as u64)?;
+                self.nodes
+                    .replace(index as u32, node.with_leaf_number(leaf));
             }
         }
         check_limit("nodes", count as u64, met)
     }
+}
+
+fn read_node(archive: &mut ArchiveReader<'_>) -> Result<Node, LoadError> {
+    Ok(Node::from_words([archive.word()?, archive.word()?]))
+}
+
+fn read_plane(archive: &mut ArchiveReader<'_>) -> Result<Vec4, LoadError> {
+    let mut number = || finite(archive);
+    Ok(Vec4::new(number()?, number()?, number()?, number()?))
+}
+
+fn finite(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
+    let word = archive.word()?;
+    let number = f32::from_bits(word);
+    if number.is_finite() {
+        return Ok(number);
+    }
+    out_of_range(
+        "the bits of a number that is not finite",
+        word.into(),
+        f32::MAX.to_bits().into(),
+    )
 }
 
 fn out_of_range<T>(what: &'static str, value: u64, limit: u64) -> Result<T, LoadError> {

@@ -22,7 +22,8 @@ use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
 use crate::crossing::{Crossings, Interval, Sides, Tolerance};
-use crate::node::{NODE_BYTES, Node, NodeKind};
+use crate::node::{Node, NodeKind};
+use crate::nodes::{Nodes, bytes_of};
 use crate::plane_tracking::{LeafAnswer, PlaneTracking};
 
 /// A node, and the part of the ray inside.
@@ -57,7 +58,7 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
         far: min_or_keep(query.t_max(), whole.far),
     };
     if part.near <= part.far {
-        let crossings = Crossings::new(ray, tree.largest, tolerance);
+        let crossings = Crossings::new(ray, tree.plane_limits(), tolerance);
         let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
     }
 }
@@ -82,13 +83,20 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
     };
     let mut stack: TraversalStack<PutOff<T>> = TraversalStack::new();
     loop {
-        let node = &tree.nodes[segment.node as usize];
+        let node = tree.nodes.node(segment.node);
         let below = if node.is_leaf() {
-            statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
+            statistics.visit_node(StatisticsKind::Leaf, bytes_of(node));
             test_leaf(tree, node, &segment, crossings, query, statistics)?;
             None
         } else {
-            descend(node, &segment, crossings, &mut stack, statistics)
+            descend(
+                &tree.nodes,
+                node,
+                &segment,
+                crossings,
+                &mut stack,
+                statistics,
+            )
         };
         if let Some(below) = below {
             segment = below;
@@ -112,6 +120,7 @@ pub(crate) fn traverse_below<P: Primitive, T: PlaneTracking, Q: Query, S: Traver
 /// the ray, or of what the node holds.
 #[inline(always)]
 fn descend<T: PlaneTracking, S: TraversalStatistics>(
+    nodes: &Nodes,
     node: &Node,
     segment: &Segment<T>,
     crossings: &Crossings<'_>,
@@ -121,11 +130,11 @@ fn descend<T: PlaneTracking, S: TraversalStatistics>(
     let interval = segment.interval;
     statistics.test_planes(1);
     let sides = if node.is_general() {
-        statistics.visit_node(StatisticsKind::General, NODE_BYTES as u32);
-        let crossing = crossings.general(node.plane_words(), interval.far);
+        statistics.visit_node(StatisticsKind::General, bytes_of(node));
+        let crossing = crossings.general(nodes.plane(node.plane_number()), interval.far);
         crossing.sides(interval)
     } else {
-        statistics.visit_node(StatisticsKind::Inner, NODE_BYTES as u32);
+        statistics.visit_node(StatisticsKind::Inner, bytes_of(node));
         crossings.axis_aligned(node, interval)
     };
     match sides {
@@ -139,7 +148,9 @@ fn descend<T: PlaneTracking, S: TraversalStatistics>(
             exit,
             entry,
         } => {
-            let [planes, beyond] = segment.planes.divided(|| exact_crossing(node, crossings));
+            let [planes, beyond] = segment
+                .planes
+                .divided(|| exact_crossing(nodes, node, crossings));
             let farther = node.child(1 - nearer).map(|node| Segment {
                 node,
                 interval: interval.after(entry),
@@ -166,11 +177,11 @@ fn descend<T: PlaneTracking, S: TraversalStatistics>(
 }
 
 /// Where the ray crosses the plane of an inner node, for those who remember it.
-fn exact_crossing(node: &Node, crossings: &Crossings<'_>) -> f64 {
+fn exact_crossing(nodes: &Nodes, node: &Node, crossings: &Crossings<'_>) -> f64 {
     if node.is_general() {
-        crossings.general_at(node.plane_words())
+        crossings.general_at(nodes.plane(node.plane_number()))
     } else {
-        crossings.axis_aligned_at(node.axis_index(), node.position_and_slack().0)
+        crossings.axis_aligned_at(node)
     }
 }
 
@@ -186,10 +197,10 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     statistics: &mut S,
 ) -> ControlFlow<()> {
     let leaf = match node.kind() {
-        NodeKind::PlanarLeaf { leaf, .. } => {
+        NodeKind::PlanarLeaf { plane, leaf } => {
             statistics.test_planes(1);
             let interval = segment.interval;
-            let crossing = crossings.general(node.plane_words(), interval.far);
+            let crossing = crossings.general(tree.nodes.plane(plane), interval.far);
             if !crossing.meets(interval) {
                 return ControlFlow::Continue(());
             }

@@ -15,6 +15,7 @@ use crate::cells::{Ancestor, for_each_cell};
 use crate::node::{Node, NodeKind};
 use crate::pieces::Pieces;
 use crate::polytope::Polytope;
+use crate::split_plane::SplitPlane;
 
 impl<P: Polygonal> BspTree<P> {
     /// Writes into each leaf that qualifies the depth of its plane.
@@ -22,7 +23,7 @@ impl<P: Polygonal> BspTree<P> {
         let Some(bounds) = self.bounds else { return };
         let mut marked = Vec::new();
         let all_cut = for_each_cell(&self.nodes, &bounds, |index, cell, path| {
-            let node = self.nodes[index];
+            let node = self.nodes.node(index);
             if let NodeKind::Leaf(leaf) = node.kind()
                 && let mut ids = self.ids_of(node)
                 && let (Some(id), None) = (ids.next(), ids.next())
@@ -33,7 +34,7 @@ impl<P: Polygonal> BspTree<P> {
         });
         debug_assert!(all_cut.is_ok(), "the build has made the same cuts");
         for (index, node) in marked {
-            self.nodes[index] = node;
+            self.nodes.replace(index, node);
         }
     }
 }
@@ -48,7 +49,7 @@ fn bounding_depth<P: Polygonal>(primitive: &P, cell: &Polytope, path: &[Ancestor
     let tolerance = slack_of(primitive);
     let mut faces = cell.cut_faces();
     faces.find_map(|(depth, face)| {
-        let plane = &path[depth as usize].plane;
+        let plane = with_slack(&path[depth as usize].plane, tolerance);
         let face: Vec<DVec3> = face.collect();
         let is_face_inside = || {
             face.iter()
@@ -63,8 +64,15 @@ fn bounding_depth<P: Polygonal>(primitive: &P, cell: &Polytope, path: &[Ancestor
                 corners.all(|&point| is_inside(point, &face, tolerance))
             })
         };
-        let qualifies = lies_on(primitive, plane) && is_face_inside() && is_part_inside();
+        let qualifies = lies_on(primitive, &plane) && is_face_inside() && is_part_inside();
         qualifies.then_some(depth)
+    })
+}
+
+/// The plane with a slack that suits the primitive: axis-aligned ones share a larger.
+fn with_slack(plane: &SplitPlane, slack: f64) -> SplitPlane {
+    plane.axis().map_or(*plane, |axis| {
+        SplitPlane::axis_aligned(axis, plane.offset() as f32, slack)
     })
 }
 

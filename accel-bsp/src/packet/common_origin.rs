@@ -23,7 +23,7 @@
 //! nothing.
 
 use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
-use accel_core::glam::{DVec3, Vec3};
+use accel_core::glam::{DVec3, Vec3, Vec4};
 use accel_core::simd::Lanes;
 use accel_core::structure::CellVisit;
 
@@ -105,8 +105,10 @@ impl<L: Lanes> CommonOrigin<L> {
         seen.crossed_at(reciprocals[usize::from(seen.is_behind())], far)
     }
 
+    /// Of a general plane, its offset behind its normal.
     #[inline(always)]
-    pub(super) fn general(&self, normal: Vec3, offset: f32, far: L) -> CrossingLanes<L> {
+    pub(super) fn general(&self, plane: Vec4, far: L) -> CrossingLanes<L> {
+        let (normal, offset) = (plane.truncate(), plane.w);
         let normal_in_double = normal.as_dvec3();
         let seen = Seen {
             start: normal_in_double.dot(self.origin) - f64::from(offset),
@@ -223,7 +225,7 @@ mod tests {
             let in_lanes =
                 |axis: usize| F32x4::from_slice(&case.directions.map(|direction| direction[axis]));
             let rays = CommonOrigin::new(case.origin, [0, 1, 2].map(in_lanes));
-            let crossing = rays.general(case.normal, case.offset, F32x4::splat(case.far));
+            let crossing = rays.general(case.normal.extend(case.offset), F32x4::splat(case.far));
             for (lane, direction) in case.directions.into_iter().enumerate() {
                 for step in 0..=16 {
                     let t = case.far * step as f32 / 16.0;

@@ -16,7 +16,8 @@ use accel_core::{PreparedRay, Primitive};
 
 use crate::BspTree;
 use crate::crossing::{Crossings, Tolerance};
-use crate::node::{NODE_BYTES, Node, NodeKind};
+use crate::node::NodeKind;
+use crate::nodes::bytes_of;
 use crate::plane_tracking::Untracked;
 use crate::traversal::traverse_below;
 use common_origin::CommonOrigin;
@@ -35,7 +36,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
 
     #[inline(always)]
     fn is_leaf(&self, node: u32) -> bool {
-        self.nodes.get(node as usize).is_none_or(Node::is_leaf)
+        node == NOTHING || self.nodes.node(node).is_leaf()
     }
 
     #[inline(always)]
@@ -45,27 +46,25 @@ impl<P: Primitive> CellTree for BspTree<P> {
         visit: &CellVisit<L>,
         statistics: &mut S,
     ) -> Division<L> {
-        let (crossing, children, kind) = match self.nodes[visit.node as usize].kind() {
+        let node = self.nodes.node(visit.node);
+        let (crossing, children, kind) = match node.kind() {
             NodeKind::AxisAligned {
                 axis,
                 position,
                 slack,
                 children,
             } => {
+                let slack = self.nodes.slacks().of(slack);
                 let crossing = vector.axis_aligned(axis, position, slack, visit.far);
                 (crossing, children, StatisticsKind::Inner)
             }
-            NodeKind::General {
-                normal,
-                offset,
-                children,
-            } => {
-                let crossing = vector.general(normal, offset, visit.far);
+            NodeKind::General { plane, children } => {
+                let crossing = vector.general(self.nodes.plane(plane), visit.far);
                 (crossing, children, StatisticsKind::General)
             }
             leaf => unreachable!("{leaf:?} is not an inner node"),
         };
-        statistics.visit_node(kind, NODE_BYTES as u32);
+        statistics.visit_node(kind, bytes_of(node));
         statistics.test_planes(1);
         let [back, front] = children.map(|child| child.unwrap_or(NOTHING));
         let children = if crossing.is_origin_behind {
@@ -87,17 +86,16 @@ impl<P: Primitive> CellTree for BspTree<P> {
         visit: &CellVisit<L>,
         statistics: &mut S,
     ) -> Option<(u32, u32)> {
-        let node = self.nodes.get(visit.node as usize)?;
-        statistics.visit_node(StatisticsKind::Leaf, NODE_BYTES as u32);
+        if visit.node == NOTHING {
+            return None;
+        }
+        let node = self.nodes.node(visit.node);
+        statistics.visit_node(StatisticsKind::Leaf, bytes_of(node));
         match node.kind() {
             NodeKind::Leaf(leaf) | NodeKind::BoundedLeaf { leaf, .. } => Some((leaf, visit.active)),
-            NodeKind::PlanarLeaf {
-                normal,
-                offset,
-                leaf,
-            } => {
+            NodeKind::PlanarLeaf { plane, leaf } => {
                 statistics.test_planes(1);
-                let crossing = vector.general(normal, offset, visit.far);
+                let crossing = vector.general(self.nodes.plane(plane), visit.far);
                 Some((leaf, visit.active & crossing.meets(visit)))
             }
             _ => None,
@@ -112,7 +110,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
         query: &mut Q,
         statistics: &mut S,
     ) -> ControlFlow<()> {
-        let crossings = Crossings::new(ray, self.largest, Tolerance::SAFE);
+        let crossings = Crossings::new(ray, self.plane_limits(), Tolerance::SAFE);
         traverse_below::<P, Untracked, Q, S>(self, part, &crossings, query, statistics)
     }
 }
