@@ -35,7 +35,7 @@ pub struct BspTree<P: Primitive> {
 pub struct BspShape {
     /// Nodes split orthogonally to an axis.
     pub axis_aligned: usize,
-    /// Nodes split by other planes.
+    /// Nodes split by other planes, or by such with a slack of their own.
     pub general: usize,
     /// By the number of primitives, the number of leaves that hold as many; those of
     /// none take no node.

@@ -8,7 +8,7 @@ use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, BuildError, Polygonal, Primitive};
 
 use crate::candidates::planes_of;
-use crate::node::{MAX_INDEX, NODE_BYTES, Node, NodePlane};
+use crate::node::{MAX_INDEX, NODE_BYTES, Node, NodePlane, SlackClass};
 use crate::nodes::{Nodes, PLANE_BYTES};
 use crate::pieces::{margin, pad_of};
 use crate::shared_slacks::{SharedSlacks, SlackCounts};
@@ -117,14 +117,18 @@ struct KnownPlanes(HashMap<[u32; 4], u32>);
 
 impl KnownPlanes {
     fn of_node(&mut self, plane: &SplitPlane, nodes: &mut Nodes) -> NodePlane {
+        let Some(axis) = plane.axis() else {
+            return NodePlane::General(self.number_of(plane, nodes));
+        };
         let (_, position, slack) = plane.stored();
-        match plane.axis() {
-            Some(axis) => NodePlane::AxisAligned {
+        let class = nodes.slacks().class_of(slack);
+        match (class, plane.with_slack_of_its_own()) {
+            (None, Some(general)) => NodePlane::General(self.number_of(&general, nodes)),
+            _ => NodePlane::AxisAligned {
                 axis,
                 position,
-                slack: nodes.slacks().class_of(slack),
+                slack: class.unwrap_or(SlackClass::Large),
             },
-            None => NodePlane::General(self.number_of(plane, nodes)),
         }
     }
 
@@ -141,20 +145,20 @@ impl KnownPlanes {
     }
 }
 
-/// How many planes are not axis-aligned, and what the others share.
+/// How many planes have slacks of their own, at most, and what the others share.
 fn survey(tree: &BuildTree<SplitPlane>) -> (usize, SharedSlacks) {
-    let (mut general, mut slacks) = (0, SlackCounts::default());
+    let (mut inner, mut slacks) = (0, SlackCounts::default());
     let mut pending = vec![tree.root()];
     while let Some(cursor) = pending.pop() {
         if let BuildNode::Inner { node, children } = cursor.node() {
             pending.extend(children);
-            match node.axis() {
-                Some(_) => slacks.count(node.stored().2),
-                None => general += 1,
+            inner += 1;
+            if node.axis().is_some() {
+                slacks.count(node.stored().2);
             }
         }
     }
-    (general, slacks.shared())
+    (inner, slacks.shared())
 }
 
 fn holds_any(node: &Cursor<'_, SplitPlane>) -> bool {

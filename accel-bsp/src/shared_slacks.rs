@@ -1,11 +1,15 @@
-//! Which two slacks all axis-aligned planes of a tree share.
+//! Which two slacks the axis-aligned planes of a tree share.
 //!
 //! A traversal may take more slack than the build, and visits both sides of a plane a
 //! little more often. Shared, the slack takes no room in a node, and a ray needs no
-//! sum for it at each. Two are enough to keep that of large primitives, or of the
-//! whole scene, away from the small ones.
+//! sum for it at each. One is for the bulk, and one for those of large primitives or of
+//! the whole scene. Planes that neither suits are stored as general ones, which have
+//! their own.
 
 use crate::node::SlackClass;
+
+/// The most that a plane's slack grows by being shared, in powers of two.
+const MOST_EXCESS: usize = 4;
 
 /// The slacks that axis-aligned planes share.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,14 +27,15 @@ impl SharedSlacks {
         }
     }
 
-    /// Which one is for planes of this slack, at most the large one.
-    pub(crate) fn class_of(self, slack: f32) -> SlackClass {
-        debug_assert!(slack <= self.large);
-        if slack <= self.small {
-            SlackClass::Small
-        } else {
-            SlackClass::Large
-        }
+    /// Which one suits planes of this slack, if any does.
+    pub(crate) fn class_of(self, slack: f32) -> Option<SlackClass> {
+        let suits = |class: &SlackClass| {
+            let shared = self.of(*class);
+            slack <= shared && exponent_of(slack) + MOST_EXCESS > exponent_of(shared)
+        };
+        [SlackClass::Small, SlackClass::Large]
+            .into_iter()
+            .find(suits)
     }
 }
 
@@ -58,21 +63,19 @@ impl SlackCounts {
         self.largest[exponent] = self.largest[exponent].max(slack);
     }
 
-    /// The smaller slack and the largest one, such that planes have as few powers of
-    /// two more than their own as can be.
+    /// The largest slack, and of the smaller ones that which suits the most planes.
     pub(crate) fn shared(&self) -> SharedSlacks {
         let in_use = |exponent: &usize| self.counts[*exponent] > 0;
         let Some(largest) = (0..256).rev().find(in_use) else {
             return SharedSlacks::default();
         };
-        let excess = |small: &usize| -> u64 {
-            let excess_of = |exponent: usize| {
-                let shared = if exponent <= *small { *small } else { largest };
-                (shared - exponent) as u64 * u64::from(self.counts[exponent])
-            };
-            (0..=largest).map(excess_of).sum()
+        let suited = |exponent: &usize| -> u64 {
+            let first = (exponent + 1).saturating_sub(MOST_EXCESS);
+            let counts = self.counts[first..=*exponent].iter();
+            counts.map(|&count| u64::from(count)).sum()
         };
-        let small = (0..=largest).filter(in_use).min_by_key(excess);
+        let smaller = 0..(largest + 1).saturating_sub(MOST_EXCESS);
+        let small = smaller.filter(in_use).max_by_key(suited);
         SharedSlacks {
             small: self.largest[small.unwrap_or(largest)],
             large: self.largest[largest],
@@ -99,10 +102,24 @@ mod tests {
     fn few_large_slacks_are_kept_from_many_small_ones() {
         assert_eq!(shared(&[]), [0.0; 2]);
         assert_eq!(shared(&[0.25]), [0.25; 2]);
-        assert_eq!(shared(&[1.0, 1.5, 1.25]), [1.5; 2]);
+        assert_eq!(shared(&[1.0, 1.5, 1.25, 0.25]), [1.5; 2]);
         assert_eq!(shared(&[0.001, 0.0011, 0.0012, 8.0]), [0.0012, 8.0]);
-        assert_eq!(shared(&[0.001, 0.0011, 6.0, 6.5, 8.0]), [0.0011, 8.0]);
-        assert_eq!(shared(&[0.001, 4.0, 6.0, 6.5, 8.0]), [0.001, 8.0]);
+        assert_eq!(shared(&[0.001, 0.0011, 0.2, 8.0]), [0.0011, 8.0]);
         assert_eq!(shared(&[f32::MIN_POSITIVE, f32::MAX])[1], f32::MAX);
+    }
+
+    #[test]
+    fn a_slack_suits_planes_of_a_little_less() {
+        let shared = SharedSlacks {
+            small: 0.5,
+            large: 64.0,
+        };
+        let [small, large] = [Some(SlackClass::Small), Some(SlackClass::Large)];
+        for (slack, class) in [(0.0625, small), (0.5, small), (8.0, large), (64.0, large)] {
+            assert_eq!(shared.class_of(slack), class, "{slack}");
+        }
+        for slack in [0.06, 0.51, 7.9, 65.0] {
+            assert_eq!(shared.class_of(slack), None, "{slack}");
+        }
     }
 }

@@ -17,6 +17,9 @@ pub(crate) struct SplitPlane {
     slack: f32,
 }
 
+/// Of a positive number's bits, those of the power of two below it.
+const POWER_OF_TWO: u32 = 0xff << 23;
+
 impl SplitPlane {
     /// The plane through `point` with the unit normal of `plane`, and this slack
     /// in scene units; `None` if its numbers do not fit single precision.
@@ -67,6 +70,21 @@ impl SplitPlane {
         Self::general(&plane, self.normal * self.offset, f64::from(self.slack))
     }
 
+    /// This axis-aligned plane, stored as a general one: scaled by a power of two, it
+    /// is the very same plane, of at most twice the slack. `None` if its numbers do not
+    /// fit.
+    pub(crate) fn with_slack_of_its_own(&self) -> Option<Self> {
+        let scale = f32::from_bits((1.0 / self.slack).to_bits() & POWER_OF_TWO);
+        let (normal, offset) = (self.normal * scale, self.offset * scale);
+        let is_exact = scale >= f32::MIN_POSITIVE && offset / scale == self.offset;
+        is_exact.then_some(Self {
+            axis: None,
+            normal,
+            offset,
+            slack: 1.0,
+        })
+    }
+
     /// Points to the front.
     #[inline]
     pub(crate) fn normal(&self) -> DVec3 {
@@ -96,5 +114,28 @@ impl SplitPlane {
     /// Normal, offset and slack as a node stores them.
     pub(crate) fn stored(&self) -> (Vec3, f32, f32) {
         (self.normal, self.offset, self.slack)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_aligned_plane_is_the_same_when_stored_as_a_general_one() {
+        for (position, slack) in [(3.1_f32, 0.001_f32), (-7e5, 3.0), (0.0, 1e-38), (1e9, 5e6)] {
+            let plane = SplitPlane::axis_aligned(Axis::Y, position, slack.into());
+            let general = plane.with_slack_of_its_own().unwrap();
+            let scale = general.normal.y;
+            assert_eq!(general.offset / scale, position);
+            assert_eq!((general.axis, general.slack), (None, 1.0));
+            let own = 1.0 / scale;
+            assert!((slack..=2.0 * slack).contains(&own), "{own} for {slack}");
+            let point = DVec3::new(1.0, 2.0, 3.0);
+            let distance = plane.signed_distance(point) * f64::from(scale);
+            assert_eq!(general.signed_distance(point), distance);
+        }
+        let plane = SplitPlane::axis_aligned(Axis::X, 1e30, 1e-30);
+        assert_eq!(plane.with_slack_of_its_own(), None);
     }
 }

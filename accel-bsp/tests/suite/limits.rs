@@ -184,6 +184,29 @@ fn the_number_of_nodes_is_bounded_by_larger_leaves() {
 }
 
 #[test]
+fn axis_aligned_planes_whose_slack_none_shares_keep_their_own() {
+    let builder = BspBuilder {
+        candidate_planes: CandidatePlanes {
+            general: GeneralPlanes::UpTo(0),
+            ..CandidatePlanes::default()
+        },
+        ..BspBuilder::default()
+    };
+    let shape = |triangles: &[Triangle]| {
+        let tree = builder.build(triangles).unwrap();
+        assert!(agrees(&tree, triangles));
+        tree.shape()
+    };
+    let [soup, stadium] = ["soup-uniform", "figure-in-stadium"].map(|family| {
+        let family = families::find(family).expect("the family is there");
+        shape(&family.scene(7, 1000))
+    });
+    // Nothing but slack makes a plane a general one here.
+    let counts = [soup, stadium].map(|shape| shape.general);
+    assert!(counts[0] == 0 && counts[1] > 20, "{counts:?}");
+}
+
+#[test]
 fn the_number_of_candidates_is_bounded_by_larger_leaves() {
     let family = families::find("straddling-through-center").unwrap();
     let triangles = family.scene(1, 500);
