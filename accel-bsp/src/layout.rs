@@ -48,10 +48,13 @@ impl<P: Polygonal> BspTree<P> {
             });
         }
         let storage = references * (size_of::<P>() + 2 * size_of::<u32>());
-        let (planes, slacks) = survey(tree);
-        let planes = planes + leaves.min(primitives.len());
-        let nodes = (inner + leaves) * NODE_BYTES + planes * PLANE_BYTES;
-        let bytes = tree.bytes() + nodes + storage;
+        let (of_nodes, slacks) = survey(tree);
+        let of_leaves = match builder.single_leaves {
+            SingleLeaves::Planar => leaves.min(primitives.len()),
+            _ => 0,
+        };
+        let planes = (of_nodes + of_leaves) * (PLANE_BYTES + KnownPlanes::BYTES_EACH);
+        let bytes = tree.bytes() + (inner + leaves) * NODE_BYTES + planes + storage;
         builder.budget.check_bytes(bytes)?;
         let mut packed = Self {
             nodes: Nodes::new(slacks, inner + leaves),
@@ -116,6 +119,9 @@ impl<P: Polygonal> BspTree<P> {
 struct KnownPlanes(HashMap<[u32; 4], u32>);
 
 impl KnownPlanes {
+    /// Bytes that a plane takes here, with the room that a table keeps free.
+    const BYTES_EACH: usize = 2 * size_of::<([u32; 4], u32)>();
+
     fn of_node(&mut self, plane: &SplitPlane, nodes: &mut Nodes) -> NodePlane {
         let Some(axis) = plane.axis() else {
             return NodePlane::General(self.number_of(plane, nodes));
@@ -145,20 +151,21 @@ impl KnownPlanes {
     }
 }
 
-/// How many planes have slacks of their own, at most, and what the others share.
+/// How many nodes have a plane with a slack of its own, and what the others share.
 fn survey(tree: &BuildTree<SplitPlane>) -> (usize, SharedSlacks) {
-    let (mut inner, mut slacks) = (0, SlackCounts::default());
+    let (mut general, mut slacks) = (0, SlackCounts::default());
     let mut pending = vec![tree.root()];
     while let Some(cursor) = pending.pop() {
         if let BuildNode::Inner { node, children } = cursor.node() {
             pending.extend(children);
-            inner += 1;
-            if node.axis().is_some() {
-                slacks.count(node.stored().2);
+            match node.axis() {
+                Some(_) => slacks.count(node.stored().2),
+                None => general += 1,
             }
         }
     }
-    (inner, slacks.shared())
+    let shared = slacks.shared();
+    (general + slacks.unsuited(shared), shared)
 }
 
 fn holds_any(node: &Cursor<'_, SplitPlane>) -> bool {

@@ -81,6 +81,13 @@ impl SlackCounts {
             large: self.largest[largest],
         }
     }
+
+    /// How many of the planes counted neither of these suits.
+    pub(crate) fn unsuited(&self, shared: SharedSlacks) -> usize {
+        let used = self.counts.iter().zip(self.largest);
+        let unsuited = used.filter(|&(_, slack)| shared.class_of(slack).is_none());
+        unsuited.map(|(&count, _)| count as usize).sum()
+    }
 }
 
 fn exponent_of(slack: f32) -> usize {
@@ -95,6 +102,9 @@ mod tests {
         let mut counts = SlackCounts::default();
         slacks.iter().for_each(|&slack| counts.count(slack));
         let shared = counts.shared();
+        let is_unsuited = |slack: &&f32| shared.class_of(**slack).is_none();
+        let unsuited = slacks.iter().filter(is_unsuited).count();
+        assert_eq!(counts.unsuited(shared), unsuited);
         [shared.small, shared.large]
     }
 
