@@ -11,6 +11,7 @@
 //! nothing, and one pointer of their own, since rays whose direction constrains
 //! nothing meet even that.
 
+use accel_core::structure::predicted;
 use accel_core::{Aabb, BuildError};
 
 /// Bytes of a node of a [`WideBvh`](super::WideBvh); leaves take none.
@@ -113,6 +114,12 @@ impl WideNode {
     #[inline(always)]
     pub(super) fn child(&self, place: usize) -> Pointer {
         self.children[place]
+    }
+
+    /// As [`child`](Self::child), for the one that is visited next.
+    #[inline(always)]
+    pub(super) fn next_child(&self, place: usize) -> Pointer {
+        predicted(&self.children, place)
     }
 
     /// The children and their boxes.

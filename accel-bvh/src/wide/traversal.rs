@@ -6,6 +6,7 @@
 //!     leaf:   offer its hits
 //!     inner:  test all boxes at once
 //!             put the children that are met off, the farthest first
+//!             of one or two, go to the closer by a jump, which is predicted
 //!     take the child put off last that is not behind the best hit
 //! ```
 
@@ -117,7 +118,7 @@ fn nearest(
     let first = met.trailing_zeros() as usize;
     let others = met & (met - 1);
     if others == 0 {
-        return Some(node.child(first));
+        return Some(node.next_child(first));
     }
     let second = others.trailing_zeros() as usize;
     let mut rest = others & (others - 1);
@@ -128,7 +129,7 @@ fn nearest(
     };
     if rest == 0 {
         stack.push(node.child(farther), near[farther]);
-        return Some(node.child(closer));
+        return Some(node.next_child(closer));
     }
     let bottom = stack.len();
     stack.push(node.child(farther), near[farther]);

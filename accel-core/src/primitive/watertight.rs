@@ -83,10 +83,12 @@ fn has_both_signs(edges: [f32; 3]) -> bool {
 /// sheared coordinates.
 fn finish(vertices: [Sheared; 3], along: f32) -> Option<Intersection> {
     let edges = edge_functions(vertices.map(|vertex| (f64::from(vertex.x), f64::from(vertex.y))));
-    let inside = edges.iter().all(|&edge| edge >= 0.0) || edges.iter().all(|&edge| edge <= 0.0);
     let [u, v, w] = edges;
+    // Without branches, since triangles face either way.
+    let front = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
+    let back = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
     let determinant = u + v + w;
-    if !inside || determinant == 0.0 {
+    if !(front | back) || determinant == 0.0 {
         return None;
     }
     let [a, b, c] = vertices.map(|vertex| f64::from(vertex.z));

@@ -1,6 +1,8 @@
 //! A ray made ready for traversal: everything that depends on it alone,
 //! computed once.
 
+use std::hint::select_unpredictable;
+
 use glam::Vec3;
 
 use super::Ray;
@@ -170,7 +172,9 @@ impl PreparedRay {
         for axis in Axis::ALL {
             let (low, high) = (axis.of(bounds.min), axis.of(bounds.max));
             let negative = self.is_negative(axis);
-            let (entry, exit) = if negative { (high, low) } else { (low, high) };
+            // Without a branch: at a leaf, rays of all directions come by.
+            let entry = select_unpredictable(negative, high, low);
+            let exit = select_unpredictable(negative, low, high);
             let origin = axis.of(self.origin);
             let near = (entry - origin) * axis.of(self.near_reciprocal);
             let far = (exit - origin) * axis.of(self.far_reciprocal);

@@ -4,6 +4,7 @@ mod cell_packet;
 mod dynamic;
 mod in_packets;
 mod packet;
+mod predicted;
 mod stack;
 mod validation;
 mod vectors;
@@ -21,6 +22,7 @@ pub use cell_packet::{CellTree, CellVisit, Division, RayPart};
 pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
+pub use predicted::predicted;
 pub use stack::{PacketStack, StackEntry, TraversalStack, WideStack};
 pub use vectors::VectorTraversal;
 
