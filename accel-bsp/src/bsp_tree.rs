@@ -15,8 +15,7 @@ use crate::polytope::Polytope;
 use crate::traversal::traverse;
 
 /// A general BSP tree in nodes of 8 bytes, and 16 for each plane that is not
-/// axis-aligned. Made by
-/// [`BspBuilder`](crate::BspBuilder); owns its primitives.
+/// axis-aligned. Made by [`BspBuilder`](crate::BspBuilder); owns its primitives.
 #[derive(Clone, Debug)]
 pub struct BspTree<P: Primitive> {
     pub(crate) nodes: Nodes,

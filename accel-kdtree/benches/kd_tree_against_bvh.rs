@@ -111,7 +111,6 @@ fn variants() -> Vec<(&'static str, KdTreeBuilder)> {
         };
         return vec![
             ("default", default),
-            ("K_T 15", costs(15.0, 0.2)),
             ("K_T 30", costs(30.0, 0.2)),
             ("K_T 45", costs(45.0, 0.2)),
             ("K_T 60", costs(60.0, 0.2)),

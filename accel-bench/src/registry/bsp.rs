@@ -10,7 +10,8 @@ pub(super) static ROWS: &[Row] = &[
         name: "bsp",
         is_headline: false,
         about: "general BSP tree with a fast path for axis-aligned planes, 8-byte nodes, planes apart",
-        settings: "C_i 4, C_kd 1, C_BSP 1.75, alpha 0.1, epsilon 2^-20, planes of 64 triangles",
+        settings: "C_i 4, C_kd 1, C_BSP 1.75, alpha 0.1, epsilon 2^-20, planes of 256 triangles, \
+                   general ones where others gain less than 40 %",
         heuristic,
         build: |triangles, invalid, observer| {
             build_bsp(BspBuilder::default(), triangles, invalid, observer)

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use accel_bsp::{BspBuilder, BspCosts, BspTree};
 use accel_bvh::{BvhBuilder, ObjectSplit};
-use accel_core::statistics::NodeKind;
 use accel_core::{
     AccelerationStructure, BuildError, DynStructure, InPackets, InvalidPrimitives, RaySegment,
     SurfaceAreaHeuristic, Triangle,
@@ -176,30 +175,17 @@ fn of_kd_tree(name: &'static str, tree: &KdTree<Triangle>, build_seconds: f64) -
         traversal_cost: costs.axis_aligned,
         intersection_cost: costs.intersection,
     };
-    let outline = tree.outline();
-    let leaves = outline
-        .nodes
-        .iter()
-        .filter(|node| node.kind == NodeKind::Leaf);
-    let mut leaves_by_size = Vec::new();
-    for leaf in leaves {
-        let size = leaf.references.len();
-        if leaves_by_size.len() <= size {
-            leaves_by_size.resize(size + 1, 0);
-        }
-        leaves_by_size[size] += 1;
-    }
-    let leaf_count: usize = leaves_by_size.iter().sum();
+    let statistics = tree.tree_statistics(&heuristic);
     TreeFacts {
         name,
         build_seconds,
         depth: tree.depth(),
-        axis_aligned: outline.nodes.len() - leaf_count,
+        axis_aligned: statistics.inner_nodes,
         general: 0,
-        leaves_by_size,
+        leaves_by_size: statistics.leaf_histogram,
         bounded_leaves: 0,
         node_bytes: tree.node_bytes(),
-        surface_area_cost: tree.tree_statistics(&heuristic).sah_cost,
+        surface_area_cost: statistics.sah_cost,
     }
 }
 

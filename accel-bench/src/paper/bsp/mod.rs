@@ -1,5 +1,6 @@
 //! Ize, Wald and Parker, *Ray Tracing with the BSP Tree*, 2008: Tables 1 to 3, Figure
-//! 3, the sweep of C_i of section 5.1, one of the epsilon of section 3.2, and the hot spot of section 5.2.
+//! 3, the sweep of C_i of section 5.1, one of the epsilon of section 3.2, and the hot
+//! spot of section 5.2.
 
 mod figure_3;
 mod frames;
@@ -59,7 +60,9 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
     let kd_tree = methods[0].structure.as_ref();
     let frames = Frames::new(scene, kd_tree, settings);
     let oracle = registry::oracle(&scene.triangles, settings.invalid)?;
-    let (mut verified, mut disagreements) = verify(methods, &frames.frames, &oracle);
+    let expected = frames.frames.iter().map(|frame| expected(frame, &oracle));
+    let expected: Vec<Expected> = expected.collect();
+    let (mut verified, mut disagreements) = verify(methods, &expected);
     let speeds = Speeds::new(methods, &frames.frames, settings);
     let mut section = Section {
         heading: format!("{}, {} triangles", scene.name, scene.triangles.len()),
@@ -79,8 +82,7 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
             ));
             continue;
         }
-        let expected = expected(&frames.frames[0], &oracle);
-        let found = sweep.run(&scene.triangles, &cast, &expected, settings, &built)?;
+        let found = sweep.run(&scene.triangles, &cast, &expected[0], settings, &built)?;
         section.tables.push(found.table);
         section.charts.push(found.chart);
         verified += found.verified;
@@ -98,10 +100,9 @@ pub fn measure(scene: &Scene, settings: &Settings) -> anyhow::Result<Found> {
 
 /// Compares a sample of every frame's rays with brute force, for all methods that
 /// promise to agree: how many were compared, and how many answered differently.
-fn verify(methods: &[Method], frames: &[Frame], oracle: &dyn DynStructure) -> (usize, usize) {
+fn verify(methods: &[Method], frames: &[Expected]) -> (usize, usize) {
     let (mut verified, mut disagreements) = (0, 0);
-    for frame in frames {
-        let expected = expected(frame, oracle);
+    for expected in frames {
         let exact = methods
             .iter()
             .filter(|method| method.way != Way::Unconfirmed);

@@ -7,7 +7,7 @@ use accel_core::{BuildError, DynStructure, TraversalCounters, Triangle};
 
 use super::Settings;
 use super::methods::{Built, TreeFacts, of_bsp, timed};
-use super::work::per_ray;
+use super::work::{PER_RAY_HEADINGS, per_ray};
 use crate::measure;
 use crate::rays::RaySet;
 use crate::report::document::{DocumentTable, Figure, LineChart, Series, TableRow};
@@ -199,21 +199,17 @@ impl Sweep {
         });
         DocumentTable {
             caption: self.caption.to_owned(),
-            headings: vec![
+            headings: [
                 self.name,
                 "build\nseconds",
                 "nodes",
                 "surface\narea cost",
                 "leaves\nof one",
-                "standard\ntests",
-                "traversal-\nbased tests",
-                "BSP\nnodes",
-                "kd-tree\nnodes",
-                "both",
-                "leaves",
-                "unlike\nbrute force",
-                "speed, of\nthe default",
-            ],
+            ]
+            .into_iter()
+            .chain(PER_RAY_HEADINGS)
+            .chain(["unlike\nbrute force", "speed, of\nthe default"])
+            .collect(),
             rows: rows.collect(),
         }
     }

@@ -42,20 +42,24 @@ pub(super) fn table(scene: &str, methods: &[Method], frames: &[Frame]) -> Docume
     }
     DocumentTable {
         caption,
-        headings: vec![
-            "rays",
-            "method",
-            "standard\ntests",
-            "traversal-\nbased tests",
-            "BSP\nnodes",
-            "kd-tree\nnodes",
-            "both",
-            "leaves",
-            "otherwise\nanswered",
-        ],
+        headings: ["rays", "method"]
+            .into_iter()
+            .chain(PER_RAY_HEADINGS)
+            .chain(["otherwise\nanswered"])
+            .collect(),
         rows,
     }
 }
+
+/// Over the figures of [`per_ray`].
+pub(super) const PER_RAY_HEADINGS: [&str; 6] = [
+    "standard\ntests",
+    "traversal-\nbased tests",
+    "BSP\nnodes",
+    "kd-tree\nnodes",
+    "both",
+    "leaves",
+];
 
 /// Nothing for hits that are not confirmed where all hits are asked for.
 fn measured(method: &Method, exact: &dyn DynStructure, frame: &Frame) -> Option<TableRow> {
