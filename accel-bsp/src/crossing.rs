@@ -52,8 +52,6 @@ const AT_THE_ORIGIN: f32 = 8.0 * UNIT_ROUNDOFF;
 /// How far the origin may be off when the slack has moved it, relative to itself.
 const MOVED_ORIGIN: f32 = 2.0 * UNIT_ROUNDOFF;
 
-const SIGN: u32 = 1 << 31;
-
 /// What a ray must know of all planes of a tree before it meets one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaneLimits {
@@ -146,12 +144,11 @@ pub(crate) enum Sides {
     },
 }
 
-/// Signed distances along the ray, turned to rise: `start + t * slope`.
+/// Signed distances along the ray: `start + t * slope`.
 pub(crate) struct GeneralCrossing {
     start: f32,
     slope: f32,
     tau: f32,
-    near_child: u32,
 }
 
 impl<'a> Crossings<'a> {
@@ -206,16 +203,11 @@ impl<'a> Crossings<'a> {
     /// Of a general plane, its offset behind its normal.
     #[inline]
     pub(crate) fn general(&self, plane: Vec4, far: f32) -> GeneralCrossing {
-        let start = plane.dot(self.origin);
-        let slope = plane.dot(self.direction);
         let rounding = self.rounding_at_origin + self.rounding_along * far;
-        // Without a branch, which would be hard to predict.
-        let sign = slope.to_bits() & SIGN;
         GeneralCrossing {
-            start: f32::from_bits(start.to_bits() ^ sign),
-            slope: slope.abs(),
+            start: plane.dot(self.origin),
+            slope: plane.dot(self.direction),
             tau: self.slack + plane.abs().dot(rounding),
-            near_child: sign >> 31,
         }
     }
 
@@ -237,28 +229,35 @@ impl GeneralCrossing {
     /// Whether the ray comes within tau of the plane.
     #[inline]
     pub(crate) fn meets(&self, interval: Interval) -> bool {
-        !(self.distance(interval.near) > self.tau || self.distance(interval.far) < -self.tau)
+        let (lowest, highest) = self.distances(interval);
+        !(lowest > self.tau || highest < -self.tau)
     }
 
     #[inline]
     pub(crate) fn sides(&self, interval: Interval) -> Sides {
-        if self.distance(interval.near) > self.tau {
-            return Sides::One(1 - self.near_child);
+        let (lowest, highest) = self.distances(interval);
+        if lowest > self.tau {
+            return Sides::One(1);
         }
-        if self.distance(interval.far) < -self.tau {
-            return Sides::One(self.near_child);
+        if highest < -self.tau {
+            return Sides::One(0);
         }
-        let reciprocal = 1.0 / self.slope;
+        let start = self.start * 1.0_f32.copysign(self.slope);
+        let reciprocal = 1.0 / self.slope.abs();
         Sides::Both {
-            nearer: self.near_child,
-            exit: (self.tau - self.start) * reciprocal,
-            entry: (-self.tau - self.start) * reciprocal,
+            nearer: u32::from(self.slope.is_sign_negative()),
+            exit: (self.tau - start) * reciprocal,
+            entry: (-self.tau - start) * reciprocal,
         }
     }
 
+    /// The least signed distance in the interval and the greatest. Whether they rise
+    /// or fall is not asked: all nodes would wait for the answer.
     #[inline]
-    fn distance(&self, t: f32) -> f32 {
-        self.start + t * self.slope
+    fn distances(&self, interval: Interval) -> (f32, f32) {
+        let at = |t| self.start + t * self.slope;
+        let (near, far) = (at(interval.near), at(interval.far));
+        (min_or_keep(near, far), max_or_keep(near, far))
     }
 }
 

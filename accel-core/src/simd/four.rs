@@ -46,6 +46,12 @@ impl F32x4 {
         Self(lanes::high(self.0))
     }
 
+    /// This and `other`, the lanes of both exchanged where `sign` has its sign bit.
+    #[inline(always)]
+    pub fn exchanged_where_negative(self, other: Self, sign: Self) -> [Self; 2] {
+        lanes::exchanged_where_negative(self.0, other.0, sign.0).map(Self)
+    }
+
     /// A bit per lane, the first lane lowest: set where `self <= other`.
     #[inline(always)]
     pub fn le_mask(self, other: Self) -> u32 {
@@ -206,6 +212,15 @@ mod lanes {
         unsafe { sse::_mm_movehl_ps(a, a) }
     }
     #[inline(always)]
+    pub fn exchanged_where_negative(a: Lanes, b: Lanes, sign: Lanes) -> [Lanes; 2] {
+        // SAFETY: as above.
+        unsafe {
+            let all_bits = sse::_mm_srai_epi32::<31>(sse::_mm_castps_si128(sign));
+            let differing = sse::_mm_and_ps(sse::_mm_xor_ps(a, b), sse::_mm_castsi128_ps(all_bits));
+            [sse::_mm_xor_ps(a, differing), sse::_mm_xor_ps(b, differing)]
+        }
+    }
+    #[inline(always)]
     pub fn le_mask(a: Lanes, b: Lanes) -> u32 {
         // SAFETY: as above.
         unsafe { sse::_mm_movemask_ps(sse::_mm_cmple_ps(a, b)) as u32 }
@@ -290,6 +305,16 @@ mod lanes {
         [a[2], a[3], a[2], a[3]]
     }
     #[inline(always)]
+    pub fn exchanged_where_negative(a: Lanes, b: Lanes, sign: Lanes) -> [Lanes; 2] {
+        let (mut first, mut second) = (a, b);
+        for lane in 0..4 {
+            if sign[lane].is_sign_negative() {
+                (first[lane], second[lane]) = (b[lane], a[lane]);
+            }
+        }
+        [first, second]
+    }
+    #[inline(always)]
     pub fn le_mask(a: Lanes, b: Lanes) -> u32 {
         (0..4)
             .map(|lane| u32::from(a[lane] <= b[lane]) << lane)
@@ -350,6 +375,10 @@ mod tests {
             }
         }
         let four = F32x4::new(1.0, 2.0, 3.0, 4.0);
+        let signs = F32x4::new(-0.0, 0.0, f32::NEG_INFINITY, 1.0);
+        let [first, second] = four.exchanged_where_negative(F32x4::splat(9.0), signs);
+        assert_eq!(first.to_array(), [9.0, 2.0, 9.0, 4.0]);
+        assert_eq!(second.to_array(), [1.0, 9.0, 3.0, 9.0]);
         assert_eq!(four.high().first_two(), [3.0, 4.0]);
         assert_eq!(four.to_array(), [1.0, 2.0, 3.0, 4.0]);
         assert_eq!((four * four - F32x4::splat(1.0)).first_two(), [0.0, 3.0]);
