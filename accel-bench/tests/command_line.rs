@@ -110,6 +110,21 @@ fn a_users_own_obj_is_compared_verified_and_drawn() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
     assert!(text(&output.stdout).contains(" 0 disagreements"));
 
+    let two = [
+        "verify",
+        scene,
+        "--rays",
+        "10",
+        "--kinds",
+        "path,far origins",
+    ];
+    let output = run(folder.path(), &two);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let lines = text(&output.stdout);
+    // A kind of the bench, an adversarial one for closest and any hit.
+    let of_kinds = lines.lines().filter(|line| line.starts_with("  "));
+    assert_eq!(of_kinds.count(), 3, "{lines}");
+
     for show in [
         "shaded", "normals", "nodes", "planes", "tests", "cost", "time",
     ] {
@@ -159,6 +174,8 @@ fn what_can_not_be_done_is_refused_with_a_reason() {
     assert_refused(here, &["--size", "0x9"], &["0x9"]);
     assert_refused(here, &["--camera", "1,2;3"], &["1,2;3"]);
     assert_refused(here, &["verify", "cylinder", "--rays", "0"], &["--rays"]);
+    let arguments = ["verify", "cylinder", "--kinds", "edges,gamma"];
+    assert_refused(here, &arguments, &["gamma", "primary", "far origins"]);
     assert_refused(
         here,
         &["render", "cylinder", "-o", "no/folder/a.png"],

@@ -107,6 +107,9 @@ pub(super) struct VerifyOptions {
     /// Rays of each kind
     #[arg(long, default_value_t = 10_000, value_parser = between(1, MOST_RAYS), value_name = "N")]
     pub rays: usize,
+    /// Kinds of rays by the names that `verify` prints, such as `path,edges`; all if left out
+    #[arg(long, value_delimiter = ',', value_name = "KIND")]
+    pub kinds: Vec<String>,
     /// Structures by name, or `all`
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub structures: Vec<String>,

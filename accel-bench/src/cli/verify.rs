@@ -21,6 +21,7 @@ const PRINTED: usize = 5;
 /// Verifies all scenes; false if anything disagreed.
 pub(super) fn run(options: &VerifyOptions) -> anyhow::Result<bool> {
     let rows = registry::select(&options.structures).map_err(anyhow::Error::msg)?;
+    check_kinds(&options.kinds)?;
     with_threads(options.scene.threads, || {
         let mut total = Tally::default();
         for name in &options.scenes {
@@ -134,32 +135,37 @@ fn compare(
     Ok(tally)
 }
 
+/// Refuses names that no kind of rays has.
+fn check_kinds(names: &[String]) -> anyhow::Result<()> {
+    let of_bench = RayKind::ALL.iter().map(|kind| kind.name());
+    let adversarial = adversarial::RayKind::FINITE.iter().map(|kind| kind.name());
+    let known: Vec<&str> = of_bench.chain(adversarial).collect();
+    for name in names {
+        anyhow::ensure!(
+            known.contains(&name.as_str()),
+            "there is no kind of rays named `{name}`; there are {}",
+            known.join(", ")
+        );
+    }
+    Ok(())
+}
+
 /// Every kind of rays of the bench with its own question, and the adversarial
-/// kinds.
+/// kinds; those asked for.
 fn trials(scene: &Scene, options: &VerifyOptions) -> anyhow::Result<Vec<Trial>> {
+    let is_wanted =
+        |name: &str| options.kinds.is_empty() || options.kinds.iter().any(|kind| kind == name);
     let mut trials = Vec::new();
     let finder = ray_finder(scene, options.scene.invalid())?;
-    // Enough pixels for the kind with the fewest rays: all kinds but primary
-    // make at least one ray per pixel that hits something.
-    let mut side = (options.rays as f64).sqrt().ceil() as u32;
     for kind in RayKind::ALL {
-        let mut rays = Vec::new();
-        for _ in 0..4 {
-            let source = ray_source(scene, &finder, (side, side), options.scene.seed);
-            rays = source
-                .map(|source| source.rays(kind).rays)
-                .unwrap_or_default();
-            if rays.len() >= options.rays || rays.is_empty() {
-                break;
-            }
-            side *= 2;
+        if is_wanted(kind.name()) {
+            trials.push(Trial {
+                name: kind.name().to_owned(),
+                question: kind.question(),
+                rays: rays_of_bench(kind, scene, &finder, options),
+                is_adversarial: false,
+            });
         }
-        trials.push(Trial {
-            name: kind.name().to_owned(),
-            question: kind.question(),
-            rays: spread(rays, options.rays),
-            is_adversarial: false,
-        });
     }
     let valid: Vec<Triangle> = scene
         .triangles
@@ -168,16 +174,40 @@ fn trials(scene: &Scene, options: &VerifyOptions) -> anyhow::Result<Vec<Trial>> 
         .copied()
         .collect();
     for family in adversarial::RayKind::FINITE {
-        let mut random = Pcg64Mcg::seed_from_u64(options.scene.seed);
-        let rays = adversarial::rays(family, &valid, &mut random, options.rays);
-        trials.push(Trial {
-            name: family.name().to_owned(),
-            question: Question::Closest,
-            rays,
-            is_adversarial: true,
-        });
+        if is_wanted(family.name()) {
+            let mut random = Pcg64Mcg::seed_from_u64(options.scene.seed);
+            trials.push(Trial {
+                name: family.name().to_owned(),
+                question: Question::Closest,
+                rays: adversarial::rays(family, &valid, &mut random, options.rays),
+                is_adversarial: true,
+            });
+        }
     }
     Ok(trials)
+}
+
+/// As many as asked for: of as many pixels as that takes, since not every kind makes
+/// a ray at each.
+fn rays_of_bench(
+    kind: RayKind,
+    scene: &Scene,
+    finder: &Structure,
+    options: &VerifyOptions,
+) -> Vec<RaySegment> {
+    let mut side = (options.rays as f64).sqrt().ceil() as u32;
+    let mut rays = Vec::new();
+    for _ in 0..4 {
+        let source = ray_source(scene, finder, (side, side), options.scene.seed);
+        rays = source
+            .map(|source| source.rays(kind).rays)
+            .unwrap_or_default();
+        if rays.len() >= options.rays || rays.is_empty() {
+            break;
+        }
+        side *= 2;
+    }
+    spread(rays, options.rays)
 }
 
 /// `count` of the rays, evenly spread; all if there are fewer.
