@@ -332,7 +332,14 @@ fn paper_bsp_sets_published_figures_and_pictures_beside_measured_ones() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let printed = text(&output.stdout);
     let expected = [
-        "Table 1", "Table 2", "Table 3", "C_i", "2^-24", "Hot spot", "182.4",
+        "Table 1",
+        "Table 2",
+        "Table 3",
+        "BSP-tri tuned",
+        "C_i",
+        "2^-24",
+        "Hot spot",
+        "182.4",
     ];
     for words in expected {
         assert!(printed.contains(words), "no `{words}` in {printed}");

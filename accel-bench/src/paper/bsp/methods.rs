@@ -11,7 +11,7 @@ use accel_core::{
 };
 use accel_kdtree::KdTree;
 
-use super::tuning::{self, Tuned};
+use super::tuning::{self, KdTreeCosts, Tuned};
 use super::unconfirmed::Unconfirmed;
 use crate::registry::Structure;
 
@@ -56,17 +56,19 @@ pub(super) struct Built {
     /// The kd-tree with single rays first: the others are compared with it.
     pub methods: Vec<Method>,
     pub facts: Vec<TreeFacts>,
-    /// How the kd-tree was tuned.
-    pub tuned: Tuned,
+    pub tuned_kd_tree: Tuned<KdTreeCosts>,
+    /// By its C_i.
+    pub tuned_bsp_tri: Tuned<f64>,
 }
 
-/// Builds all of them; the kd-tree is the fastest of several on `rays`.
+/// Builds all of them; the kd-tree and a BSP-tri are the fastest of several on `rays`.
 pub(super) fn build_all(
     triangles: &[Triangle],
     invalid: InvalidPrimitives,
     rays: &[RaySegment],
 ) -> Result<Built, BuildError> {
-    let (tuned, kd_tree) = tuning::fastest(triangles, invalid, rays)?;
+    let (tuned_kd_tree, kd_tree) = tuning::kd_tree(triangles, invalid, rays)?;
+    let (tuned_bsp_tri, fast_tri) = tuning::bsp_tri(triangles, invalid, rays)?;
     let mut facts = Vec::new();
     let variants = [
         ("BSP-orig", BspBuilder::original()),
@@ -81,7 +83,10 @@ pub(super) fn build_all(
         facts.push(of_bsp(name, &tree, build_seconds));
         trees.push(tree);
     }
-    facts.push(of_kd_tree("kd-tree", &kd_tree, tuned.build_seconds));
+    let seconds = tuned_bsp_tri.build_seconds;
+    facts.push(of_bsp("BSP-tri tuned", &fast_tri, seconds));
+    let seconds = tuned_kd_tree.build_seconds;
+    facts.push(of_kd_tree("kd-tree", &kd_tree, seconds));
     let [original, bsp, tri, bounded] = trees.try_into().expect("there are four variants");
     let bvh = BvhBuilder {
         object_split: ObjectSplit::FullSweep,
@@ -104,6 +109,7 @@ pub(super) fn build_all(
             Box::new(Unconfirmed(bounded)),
             Way::Unconfirmed,
         ),
+        method(facts[4].name, Box::new(fast_tri), Way::Single),
         method(
             "kd-tree packets",
             Box::new(InPackets::<_, 8>(kd_tree)),
@@ -128,7 +134,8 @@ pub(super) fn build_all(
     Ok(Built {
         methods,
         facts,
-        tuned,
+        tuned_kd_tree,
+        tuned_bsp_tri,
     })
 }
 

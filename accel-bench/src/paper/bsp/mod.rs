@@ -14,6 +14,7 @@ mod tuning;
 mod unconfirmed;
 mod work;
 
+use accel_bsp::BspCosts;
 use accel_core::{DynStructure, InvalidPrimitives};
 
 use super::Found;
@@ -129,9 +130,16 @@ fn expected(frame: &Frame, oracle: &dyn DynStructure) -> Expected {
 fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
     let rays = |frame: &Frame| format!("{}: {} rays", frame.name, frame.set.rays.len());
     let counts: Vec<String> = frames.frames.iter().map(rays).collect();
-    let tried = built.tuned.tried.iter();
-    let tried: Vec<String> = tried
+    let kd_tree = &built.tuned_kd_tree;
+    let (traversal_cost, empty_bonus) = kd_tree.setting;
+    let tried = kd_tree.tried.iter();
+    let kd_trees: Vec<String> = tried
         .map(|((cost, bonus), speed)| format!("{cost:.0}/{bonus} {speed:.3}"))
+        .collect();
+    let bsp_tri = &built.tuned_bsp_tri;
+    let tried = bsp_tri.tried.iter();
+    let bsp_trees: Vec<String> = tried
+        .map(|(cost, speed)| format!("{cost} {speed:.3}"))
         .collect();
     let mut notes = vec![
         format!(
@@ -145,11 +153,13 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
             Spread::interval_of(settings.rounds)
         ),
         format!(
-            "The kd-tree is swept, with K_T {:.0} for a K_I of 20 and an empty-space bonus of {}: the \
-             fastest on the camera's rays of K_T/bonus (Mrays/s) {}.",
-            built.tuned.traversal_cost,
-            built.tuned.empty_bonus,
-            tried.join(", ")
+            "The kd-tree is swept, with K_T {traversal_cost:.0} for a K_I of 20 and an empty-space bonus \
+             of {empty_bonus}: the fastest on the camera's rays of K_T/bonus (Mrays/s) {}. BSP-tri tuned \
+             has C_i {} instead of {}: the fastest of {}.",
+            kd_trees.join(", "),
+            bsp_tri.setting,
+            BspCosts::default().intersection,
+            bsp_trees.join(", ")
         ),
         "BSP-tri confirms every hit with the kernel: it counts a traversal-based test where a leaf's \
          triangle is ruled out or let through by its plane, and a standard test where it is let \
