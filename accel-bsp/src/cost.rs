@@ -6,7 +6,10 @@ use accel_core::{BuildError, SurfaceAreaHeuristic};
 /// What visiting a node and testing a primitive cost. Only ratios matter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BspCosts {
-    /// C_i, the cost of testing a primitive. Finite and above 0.
+    /// C_i, the cost of testing a primitive. Finite and above 0. With 4 nearly all
+    /// leaves of a scan hold one triangle; with 0.5 a tree takes a seventh of the
+    /// bytes and tests more triangles, which are cheap: rays were 0.85 to 1.25 times as
+    /// fast, faster on scans.
     pub intersection: f64,
     /// C_kd, the cost of visiting a node split orthogonally to an axis. Finite
     /// and at least 0.
