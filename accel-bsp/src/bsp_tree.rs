@@ -11,7 +11,7 @@ use crate::crossing::{PlaneLimits, Tolerance};
 use crate::node::{Node, NodeKind};
 use crate::nodes::Nodes;
 use crate::plane_tracking::Untracked;
-use crate::polytope::Polytope;
+use crate::polytope::{Polytope, Reach};
 use crate::traversal::traverse;
 
 /// A general BSP tree in nodes of 8 bytes, and 16 for each plane that is not
@@ -151,7 +151,7 @@ impl<P: Primitive> AccelerationStructure for BspTree<P> {
                 Some((node, plane)) => {
                     let position = outline.push_inner(StatisticsKind::Inner, bounds, parent);
                     // The planes of a loaded tree may miss their cells.
-                    let parts = cell.cut(&plane);
+                    let parts = cell.cut(&plane, Reach::Slack);
                     let [behind, in_front] = parts.unwrap_or_else(|_| [cell.clone(), cell.clone()]);
                     pending.push((node.child(1), in_front, Some(position)));
                     pending.push((node.child(0), behind, Some(position)));

@@ -9,8 +9,8 @@ use crate::allowance::Allowance;
 use crate::candidates::CandidatePlanes;
 use crate::cost::BspCosts;
 use crate::pieces::Pieces;
-use crate::polytope::Polytope;
-use crate::search::{Search, Split};
+use crate::polytope::{Polytope, Reach};
+use crate::search::Search;
 use crate::split_plane::SplitPlane;
 
 /// Builds a [`BspTree`]. All settings have defaults; [`original`](Self::original)
@@ -209,6 +209,14 @@ impl BspBuilder {
         Ok(())
     }
 
+    /// How far cells reach over planes: the faces of bounded leaves must be exact.
+    pub(crate) fn reach(&self) -> Reach {
+        match self.single_leaves {
+            SingleLeaves::Bounded => Reach::Exact,
+            SingleLeaves::Plain | SingleLeaves::Planar => Reach::Slack,
+        }
+    }
+
     /// Bytes that pieces and nodes may take while a tree is built over this many
     /// primitives, about.
     pub fn working_bytes(&self, primitives: usize) -> usize {
@@ -255,29 +263,48 @@ impl<P: Polygonal> Strategy<'_, P> {
     fn split(&self, task: &Task, depth: u32) -> Option<(SplitPlane, [Task; 2])> {
         let (pieces, cell) = (&task.pieces, &task.cell);
         let may_divide = depth < self.builder.budget.max_depth && task.allowance.nodes >= 3;
-        // The recursion asks only now and then, and an exhaustive search is slow:
-        // leaves bring it there at once.
+        // The recursion asks only now and then: leaves bring it there at once.
         if pieces.len() == 0 || !may_divide || self.observer.is_cancelled() {
             return None;
         }
         let leaf_cost = self.builder.costs.heuristic(0.0).leaf_cost(pieces.len());
-        let search = Search::new(self.builder, self.primitives, pieces, cell, task.allowance);
+        let search = Search::new(
+            self.builder,
+            self.primitives,
+            pieces,
+            cell,
+            task.allowance,
+            self.observer,
+        );
         let (splits, candidates) = search.run();
         splits.cheaper_than(leaf_cost).find_map(|split| {
-            let cells = cell.cut(&split.plane).ok()?;
+            let cells = cell.cut(&split.plane, self.builder.reach()).ok()?;
+            let parts = pieces.divide(&split.plane, split.planar_in_front);
+            // What the search estimates of thick parts leaves the slack out. Only a split
+            // that really gains may be made, or there would be no end of them.
+            let areas = cells.each_ref().map(Polytope::area);
+            let counts = parts.each_ref().map(Pieces::len);
+            let node = (cell.area(), pieces.len());
+            let costs = &self.builder.costs;
+            if split.visit + costs.of_children(node, areas, counts) >= leaf_cost {
+                return None;
+            }
+            // A plane along an axis that is stored as a general one divides a little
+            // otherwise than it was counted.
+            let duplicates = counts[0] + counts[1] - pieces.len();
             let left = Allowance {
-                duplicates: task.allowance.duplicates.saturating_sub(split.straddling),
+                duplicates: task.allowance.duplicates.checked_sub(duplicates)?,
                 candidates,
                 ..task.allowance
             };
-            Some((split.plane, children(task, &split, cells, left)))
+            Some((split.plane, children(parts, cells, left)))
         })
     }
 }
 
 /// Both tasks, which share what is left.
-fn children(task: &Task, split: &Split, cells: [Polytope; 2], left: Allowance) -> [Task; 2] {
-    let [behind, in_front] = task.pieces.divide(&split.plane, split.planar_in_front);
+fn children(parts: [Pieces; 2], cells: [Polytope; 2], left: Allowance) -> [Task; 2] {
+    let [behind, in_front] = parts;
     let allowances = left.shared([behind.len(), in_front.len()]);
     let [cell_behind, cell_in_front] = cells;
     [

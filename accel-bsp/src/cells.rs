@@ -5,7 +5,7 @@ use accel_core::{Aabb, Polygonal};
 
 use crate::node::{Node, NodeKind};
 use crate::nodes::Nodes;
-use crate::polytope::{CutError, Polytope};
+use crate::polytope::{CutError, Polytope, Reach};
 use crate::split_plane::SplitPlane;
 use crate::{BspCosts, BspTree};
 
@@ -20,10 +20,11 @@ pub(crate) struct Ancestor {
 /// above by their depth. Parts that hold nothing have no node.
 ///
 /// # Errors
-/// If a plane does not cut its cell, which no built tree has.
+/// If a plane does not cut its cell, which no tree has that was built with such cells.
 pub(crate) fn for_each_cell(
     nodes: &Nodes,
     bounds: &Aabb,
+    reach: Reach,
     mut visit: impl FnMut(u32, &Polytope, &[Ancestor]),
 ) -> Result<(), CutError> {
     let mut path: Vec<Ancestor> = Vec::new();
@@ -36,7 +37,7 @@ pub(crate) fn for_each_cell(
         visit(index, &cell, &path);
         let node = nodes.node(index);
         if let Some(plane) = nodes.split_plane(node) {
-            let [behind, in_front] = cell.cut(&plane)?;
+            let [behind, in_front] = cell.cut(&plane, reach)?;
             for (is_in_front, part) in [(true, in_front), (false, behind)] {
                 if let Some(child) = node.child(u32::from(is_in_front)) {
                     let parent = Ancestor { plane, is_in_front };
@@ -56,7 +57,7 @@ impl<P: Polygonal> BspTree<P> {
     pub fn surface_area_cost(&self, costs: &BspCosts) -> Option<f64> {
         let (mut sum, mut whole) = (0.0, None);
         let bounds = self.bounds?;
-        for_each_cell(&self.nodes, &bounds, |index, cell, _| {
+        for_each_cell(&self.nodes, &bounds, Reach::Slack, |index, cell, _| {
             whole.get_or_insert(cell.area());
             sum += cell.area() * self.node_cost(self.nodes.node(index), costs);
         })

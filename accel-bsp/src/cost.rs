@@ -60,6 +60,18 @@ impl BspCosts {
         }
     }
 
+    /// What the tests in the children of a node cost if those are leaves: of the node by
+    /// its area and how many primitives it holds, of these by theirs.
+    pub(crate) fn of_children(
+        &self,
+        (area, count): (f64, usize),
+        areas: [f64; 2],
+        counts: [usize; 2],
+    ) -> f64 {
+        let heuristic = self.heuristic(0.0);
+        heuristic.of_node(area, count).split(areas, counts)
+    }
+
     /// C_BSP that grows with the number of primitives.
     pub(crate) fn linear_general(&self, count: usize) -> f64 {
         match self.alpha {

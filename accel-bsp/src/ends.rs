@@ -12,8 +12,10 @@ pub(crate) struct Ends {
     starts: Vec<f64>,
     /// The smallest positions that have the piece behind.
     ends: Vec<f64>,
-    /// Middles of pieces thinner than the slack.
-    flats: Vec<f64>,
+    /// The same of the pieces that are thinner than the slack: from their end to their
+    /// start they are planar.
+    flat_starts: Vec<f64>,
+    flat_ends: Vec<f64>,
     /// Where the pieces begin and end themselves.
     positions: Vec<f32>,
 }
@@ -24,7 +26,8 @@ impl Ends {
         let mut ends = Self {
             starts: Vec::with_capacity(count),
             ends: Vec::with_capacity(count),
-            flats: Vec::new(),
+            flat_starts: Vec::new(),
+            flat_ends: Vec::new(),
             positions: Vec::with_capacity(2 * count),
         };
         for piece in 0..count {
@@ -34,19 +37,23 @@ impl Ends {
             let (low, high) = corners.fold(unbounded, |(low, high), x| (low.min(x), high.max(x)));
             let reach = slack - pieces.pad(piece);
             let (start, end) = (low + reach, high - reach);
+            ends.starts.push(start);
+            ends.ends.push(end);
             if start < end {
-                ends.starts.push(start);
-                ends.ends.push(end);
                 ends.positions.extend([low as f32, high as f32]);
             } else {
-                let middle = (0.5 * (low + high)) as f32;
-                ends.starts.push(f64::from(middle));
-                ends.ends.push(f64::from(middle));
-                ends.flats.push(f64::from(middle));
-                ends.positions.push(middle);
+                ends.flat_starts.push(start);
+                ends.flat_ends.push(end);
+                ends.positions.push((0.5 * (low + high)) as f32);
             }
         }
-        for list in [&mut ends.starts, &mut ends.ends, &mut ends.flats] {
+        let lists = [
+            &mut ends.starts,
+            &mut ends.ends,
+            &mut ends.flat_starts,
+            &mut ends.flat_ends,
+        ];
+        for list in lists {
             list.sort_unstable_by(f64::total_cmp);
         }
         ends.positions.sort_unstable_by(f32::total_cmp);
@@ -59,17 +66,16 @@ impl Ends {
     }
 
     pub(crate) fn count(&self, position: f64) -> Counts {
-        let total = self.starts.len();
-        let not_in_front = self.starts.partition_point(|&start| start < position);
-        let not_behind = total - self.ends.partition_point(|&end| end <= position);
-        let planar = self.flats.partition_point(|&flat| flat <= position)
-            - self.flats.partition_point(|&flat| flat < position);
-        let straddling = not_in_front + not_behind + planar - total;
+        let below = |list: &[f64]| list.partition_point(|&end| end < position);
+        let up_to = |list: &[f64]| list.partition_point(|&end| end <= position);
+        let may_be_in_front = self.starts.len() - below(&self.starts);
+        let may_be_behind = up_to(&self.ends);
+        let planar = up_to(&self.flat_ends) - below(&self.flat_starts);
         Counts {
-            behind: not_in_front - straddling,
-            in_front: not_behind - straddling,
+            behind: may_be_behind - planar,
+            in_front: may_be_in_front - planar,
             planar,
-            straddling,
+            straddling: self.starts.len() + planar - may_be_in_front - may_be_behind,
         }
     }
 }

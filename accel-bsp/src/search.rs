@@ -7,12 +7,12 @@
 //! best by the linear C_BSP, if it beats the leaf; else best by the fixed one
 //! ```
 
-use accel_core::Polygonal;
-use accel_core::geometry::{Axis, Side};
+use accel_core::geometry::Axis;
+use accel_core::{BuildObserver, Polygonal};
 
 use crate::allowance::Allowance;
-use crate::builder::{BspBuilder, SingleLeaves};
-use crate::candidates::{Neighbors, RELATIVE_PLACEMENT, lies_on, planes_of};
+use crate::builder::BspBuilder;
+use crate::candidates::{Neighbors, RELATIVE_PLACEMENT, planes_of};
 use crate::ends::Ends;
 use crate::pieces::{Counts, Pieces};
 use crate::polytope::Polytope;
@@ -23,12 +23,17 @@ use crate::split_plane::SplitPlane;
 /// relative to the extent of what the node holds.
 const LARGEST_SLACK: f64 = 1.0 / 4096.0;
 
+/// How many candidates are weighed before the observer is asked again whether the build
+/// is cancelled.
+const CANDIDATES_PER_QUESTION: usize = 64;
+
 /// A split, and what it costs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
     pub plane: SplitPlane,
     pub planar_in_front: bool,
-    pub straddling: usize,
+    /// What visiting the node costs.
+    pub visit: f64,
     cost: f64,
 }
 
@@ -61,6 +66,7 @@ pub(crate) struct Search<'a, P> {
     cell: &'a Polytope,
     /// What is left of it; every candidate takes one.
     allowance: Allowance,
+    observer: &'a dyn BuildObserver,
     best: Splits,
     distances: Vec<f64>,
 }
@@ -72,6 +78,7 @@ impl<'a, P: Polygonal> Search<'a, P> {
         pieces: &'a Pieces,
         cell: &'a Polytope,
         allowance: Allowance,
+        observer: &'a dyn BuildObserver,
     ) -> Self {
         Self {
             builder,
@@ -79,6 +86,7 @@ impl<'a, P: Polygonal> Search<'a, P> {
             pieces,
             cell,
             allowance,
+            observer,
             best: Splits::default(),
             distances: Vec::new(),
         }
@@ -164,11 +172,15 @@ impl<'a, P: Polygonal> Search<'a, P> {
         }
     }
 
-    /// Takes one candidate from the allowance, if any is left.
+    /// Takes one candidate from the allowance, if any is left and the build goes on.
     fn takes_candidate(&mut self) -> bool {
         let left = self.allowance.candidates.checked_sub(1);
         self.allowance.candidates = left.unwrap_or(0);
-        left.is_some()
+        let asks = self
+            .allowance
+            .candidates
+            .is_multiple_of(CANDIDATES_PER_QUESTION);
+        left.is_some() && !(asks && self.observer.is_cancelled())
     }
 
     /// Whether a plane with at least these counts on its sides can be the best, by
@@ -198,59 +210,30 @@ impl<'a, P: Polygonal> Search<'a, P> {
         let [linear, fixed] = self.visit_costs(plane);
         let behind = counts.behind + counts.straddling;
         let in_front = counts.in_front + counts.straddling;
-        let Some(areas) = self.split_areas(plane, counts) else {
-            return;
-        };
+        let is_on_plane = counts.planar > 0;
+        let reach = self.builder.reach();
+        let areas = (self.cell).split_areas(plane, reach, is_on_plane, &mut self.distances);
+        let Some(areas) = areas else { return };
         for planar_in_front in [false, true] {
             if planar_in_front && counts.planar == 0 {
                 continue;
             }
             let mut sides = [behind, in_front];
             sides[usize::from(planar_in_front)] += counts.planar;
-            let heuristic = costs.heuristic(0.0);
-            let children = heuristic
-                .of_node(self.cell.area(), self.pieces.len())
-                .split(areas, sides);
-            let split = |cost| Split {
+            let node = (self.cell.area(), self.pieces.len());
+            let children = costs.of_children(node, areas, sides);
+            let split = |visit| Split {
                 plane: *plane,
                 planar_in_front,
-                straddling: counts.straddling,
-                cost,
+                visit,
+                cost: visit + children,
             };
-            keep_cheaper(&mut self.best.linear, split(linear + children));
-            keep_cheaper(&mut self.best.fixed, split(fixed + children));
+            keep_cheaper(&mut self.best.linear, split(linear));
+            keep_cheaper(&mut self.best.fixed, split(fixed));
             if plane.axis().is_some() {
-                keep_cheaper(&mut self.best.axis_aligned, split(fixed + children));
+                keep_cheaper(&mut self.best.axis_aligned, split(fixed));
             }
         }
-    }
-
-    /// The areas of both parts, `None` if one has no volume, or is a trap.
-    ///
-    /// A part that reaches no further from the plane than its slack is visited by
-    /// every ray that comes as near. Around primitives that lie on the plane it
-    /// pays nevertheless, as a test of their plane, unless leaves have that test
-    /// anyway. Corners of others are caught there for good: their own planes,
-    /// rounded, miss the part.
-    fn split_areas(&mut self, plane: &SplitPlane, counts: Counts) -> Option<[f64; 2]> {
-        let (cell, slack) = (self.cell, plane.slack());
-        let thick = cell.split_areas(plane, slack, &mut self.distances);
-        let may_be_thin = self.builder.single_leaves == SingleLeaves::Plain;
-        if thick.is_some() || !may_be_thin || counts.straddling > 0 {
-            return thick;
-        }
-        let thin = cell.split_areas(plane, 0.0, &mut self.distances);
-        thin.filter(|_| self.are_wholly_planar(plane))
-    }
-
-    /// Whether the pieces on the plane are parts of primitives on the plane.
-    fn are_wholly_planar(&self, plane: &SplitPlane) -> bool {
-        let pieces = 0..self.pieces.len();
-        let mut planar = pieces.filter(|&piece| self.pieces.side(piece, plane) == Side::Planar);
-        planar.all(|piece| {
-            let id = self.pieces.ids()[piece];
-            lies_on(&self.primitives[id as usize], plane)
-        })
     }
 
     /// Whether a plane whose children cost at least so much can be the best. The

@@ -14,7 +14,7 @@ use crate::candidates::{lies_on, slack_of};
 use crate::cells::{Ancestor, for_each_cell};
 use crate::node::{Node, NodeKind};
 use crate::pieces::Pieces;
-use crate::polytope::Polytope;
+use crate::polytope::{Polytope, Reach};
 use crate::split_plane::SplitPlane;
 
 impl<P: Polygonal> BspTree<P> {
@@ -22,7 +22,7 @@ impl<P: Polygonal> BspTree<P> {
     pub(crate) fn mark_bounded_leaves(&mut self, primitives: &[P]) {
         let Some(bounds) = self.bounds else { return };
         let mut marked = Vec::new();
-        let all_cut = for_each_cell(&self.nodes, &bounds, |index, cell, path| {
+        let all_cut = for_each_cell(&self.nodes, &bounds, Reach::Exact, |index, cell, path| {
             let node = self.nodes.node(index);
             if let NodeKind::Leaf(leaf) = node.kind()
                 && let mut ids = self.ids_of(node)

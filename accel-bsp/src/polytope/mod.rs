@@ -9,6 +9,9 @@
 //!     the edges that come to lie on the plane, reversed and linked, are the cap
 //!     refuse the cut if they do not close, or if V - E + F is not 2
 //! ```
+//!
+//! Cells reach over planes by the slack, as what they hold does and as rays visit them
+//! ([`Reach`]).
 
 mod cut;
 
@@ -37,6 +40,27 @@ struct Face {
     area: f64,
     /// Which of the cuts made it, if the box did not.
     made_by: Option<u32>,
+}
+
+/// How far cells reach over the planes that cut them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reach {
+    /// By the slack. Without it a cell can have less area than what it holds: two planes
+    /// that differ by rounding are a wedge along a bit of the sheet that lies on both,
+    /// and a search takes the wedge for almost free.
+    Slack,
+    /// Not at all, for cells whose faces are to be those of primitives. No part may be
+    /// thinner than the slack: there is nothing between two planes that differ by less.
+    Exact,
+}
+
+impl Reach {
+    fn over(self, plane: &SplitPlane) -> f64 {
+        match self {
+            Self::Slack => plane.slack(),
+            Self::Exact => 0.0,
+        }
+    }
 }
 
 /// Corners nearer to a plane than this, relative to the terms of the signed
@@ -99,19 +123,47 @@ impl Polytope {
         crate::pieces::bounds_of(&self.corners)
     }
 
-    /// The surface areas of the parts behind and in front of `plane`, without
-    /// making them; `None` if either is empty, or reaches no further than
-    /// `thickness` from the plane, in units of its signed distance.
+    /// The surface areas of the parts behind and in front of `plane`, without making
+    /// them; `None` if one would be empty.
     ///
-    /// The cap needs no linking here: the area of a closed polygon is half the
-    /// sum of the cross products of its edges, in any order.
+    /// The slack hardly shows in parts that reach further than that, so it is left out
+    /// of them unless something `is_on_plane`, and might lie on a face, too.
     pub(crate) fn split_areas(
         &self,
         plane: &SplitPlane,
-        thickness: f64,
+        reach: Reach,
+        is_on_plane: bool,
         distances: &mut Vec<f64>,
     ) -> Option<[f64; 2]> {
-        self.classify(plane, thickness, distances).ok()?;
+        let slack = plane.slack();
+        self.measure(plane, 0.0, distances);
+        let reaches = |side: f64| distances.iter().any(|&s| s * side > slack);
+        let are_thick = reaches(-1.0) && reaches(1.0);
+        if reach == Reach::Exact {
+            return are_thick.then(|| self.areas(distances));
+        }
+        if are_thick && !(is_on_plane && plane.axis().is_none()) {
+            return Some(self.areas(distances));
+        }
+        self.measure(plane, slack, distances);
+        let [behind, _] = self.areas(distances);
+        self.measure(plane, -slack, distances);
+        let [_, in_front] = self.areas(distances);
+        (behind > 0.0 && in_front > 0.0).then_some([behind, in_front])
+    }
+
+    /// The surface areas of the parts behind and in front of a plane at these
+    /// distances; 0 for none.
+    ///
+    /// The cap needs no linking here: the area of a closed polygon is half the
+    /// sum of the cross products of its edges, in any order.
+    fn areas(&self, distances: &[f64]) -> [f64; 2] {
+        if distances.iter().all(|&s| s >= 0.0) {
+            return [0.0, self.area];
+        }
+        if distances.iter().all(|&s| s <= 0.0) {
+            return [self.area, 0.0];
+        }
         let (mut behind, mut in_front, mut cap) = (0.0, 0.0, DVec3::ZERO);
         let center = self.corners[0];
         for face in &self.faces {
@@ -152,39 +204,43 @@ impl Polytope {
             in_front += face.area - part;
         }
         let cap = 0.5 * cap.length();
-        Some([behind, in_front].map(|part| (part + cap).min(self.area)))
+        [behind, in_front].map(|part| (part + cap).min(self.area))
     }
 
     /// The parts behind and in front of `plane`.
-    pub(crate) fn cut(&self, plane: &SplitPlane) -> Result<[Self; 2], CutError> {
+    pub(crate) fn cut(&self, plane: &SplitPlane, reach: Reach) -> Result<[Self; 2], CutError> {
+        let overlap = reach.over(plane);
         let mut distances = Vec::with_capacity(self.corners.len());
-        self.classify(plane, 0.0, &mut distances)?;
-        let mut cut = Cut::new(self, &distances);
-        let behind = cut.side(-1.0)?;
-        let in_front = cut.side(1.0)?;
+        self.measure(plane, overlap, &mut distances);
+        let behind = self.part(&distances, -1.0)?;
+        self.measure(plane, -overlap, &mut distances);
+        let in_front = self.part(&distances, 1.0)?;
         Ok([behind, in_front])
     }
 
-    /// The signed distance of each corner, exactly zero for those on the plane.
-    fn classify(
-        &self,
-        plane: &SplitPlane,
-        thickness: f64,
-        distances: &mut Vec<f64>,
-    ) -> Result<(), CutError> {
+    /// The part where the signed distances have this sign.
+    fn part(&self, distances: &[f64], sign: f64) -> Result<Self, CutError> {
+        if distances.iter().all(|&s| s * sign <= 0.0) {
+            return Err(CutError::Misses);
+        }
+        if distances.iter().all(|&s| s * sign >= 0.0) {
+            let mut whole = self.clone();
+            whole.cuts += 1;
+            return Ok(whole);
+        }
+        Cut::new(self, distances).side(sign)
+    }
+
+    /// The signed distance of each corner from the plane moved to its front by `shift`,
+    /// exactly zero for those on it.
+    fn measure(&self, plane: &SplitPlane, shift: f64, distances: &mut Vec<f64>) {
         distances.clear();
         let absolute = plane.normal().abs();
         distances.extend(self.corners.iter().map(|&corner| {
-            let s = plane.signed_distance(corner);
+            let s = plane.signed_distance(corner) - shift;
             let noise = ON_PLANE * (absolute.dot(corner.abs()) + plane.offset().abs());
             if s.abs() <= noise { 0.0 } else { s }
         }));
-        let is_behind = distances.iter().any(|&s| s < -thickness);
-        if is_behind && distances.iter().any(|&s| s > thickness) {
-            Ok(())
-        } else {
-            Err(CutError::Misses)
-        }
     }
 
     /// Where an edge crosses the plane: the same point for both its directions.
@@ -247,7 +303,7 @@ mod tests {
     #[test]
     fn a_cube_is_cut_in_half() {
         let plane = SplitPlane::axis_aligned(Axis::X, 0.5, 1e-6);
-        let parts = unit_cube().cut(&plane).unwrap();
+        let parts = unit_cube().cut(&plane, Reach::Exact).unwrap();
         assert_eq!(unit_cube().area(), 6.0);
         assert_eq!(parts.map(|part| part.area()), [4.0, 4.0]);
     }
@@ -255,7 +311,7 @@ mod tests {
     #[test]
     fn a_corner_cut_off_is_a_tetrahedron_with_areas_known_by_hand() {
         let plane = through([0.5, 0.0, 0.0], [1.0, 1.0, 1.0]);
-        let [corner, rest] = unit_cube().cut(&plane).unwrap();
+        let [corner, rest] = unit_cube().cut(&plane, Reach::Exact).unwrap();
         let cap = 3.0_f64.sqrt() / 8.0;
         assert!((corner.area() - (3.0 / 8.0 + cap)).abs() < 1e-6);
         assert!((rest.area() - (6.0 - 3.0 / 8.0 + cap)).abs() < 1e-6);
@@ -264,11 +320,14 @@ mod tests {
     #[test]
     fn a_plane_through_corners_and_edges_closes() {
         let [a, b] = unit_cube()
-            .cut(&through([0.0; 3], [1.0, -1.0, 0.0]))
+            .cut(&through([0.0; 3], [1.0, -1.0, 0.0]), Reach::Exact)
             .unwrap();
         assert_eq!((a.corners.len(), b.corners.len()), (6, 6));
         let touching = through([0.0; 3], [1.0, 1.0, 1.0]);
-        assert_eq!(unit_cube().cut(&touching).unwrap_err(), CutError::Misses);
+        assert_eq!(
+            unit_cube().cut(&touching, Reach::Exact).unwrap_err(),
+            CutError::Misses
+        );
     }
 
     #[test]
@@ -284,10 +343,10 @@ mod tests {
             let [low, high] = cell.bounds();
             let at = low + (high - low) * f64::from(next());
             let plane = through(at.as_vec3().to_array(), normal);
-            let Some(areas) = cell.split_areas(&plane, 0.0, &mut distances) else {
+            let Some(areas) = cell.split_areas(&plane, Reach::Exact, false, &mut distances) else {
                 continue;
             };
-            let parts = cell.cut(&plane).unwrap();
+            let parts = cell.cut(&plane, Reach::Exact).unwrap();
             for (part, area) in parts.iter().zip(areas) {
                 assert!((part.area() - area).abs() <= 1e-9 * cell.area());
             }

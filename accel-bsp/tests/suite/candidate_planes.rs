@@ -94,8 +94,9 @@ fn no_split_is_better_than_the_best_through_three_corners() {
                 ..usual
             };
             let [usual, best] = [usual, oracle].map(|builder| cost(&builder, &triangles));
+            // Planes differ in how far cells reach over them.
             assert!(
-                best <= usual * (1.0 + 1e-9),
+                best <= usual * (1.0 + 1e-6),
                 "{family} {seed}: {best} {usual}"
             );
             better += usize::from(best < usual * 0.999);

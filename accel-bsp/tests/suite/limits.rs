@@ -240,7 +240,7 @@ impl BuildObserver for CancelAfter {
 }
 
 #[test]
-fn a_cancelled_build_searches_no_more_nodes() {
+fn a_cancelled_build_ends_within_a_node() {
     let exhaustive = BspBuilder {
         sampled_primitives: None,
         candidate_planes: CandidatePlanes::of_the_paper(),
@@ -252,9 +252,29 @@ fn a_cancelled_build_searches_no_more_nodes() {
     };
     let result = exhaustive.build_with(&scene(2000), &observer);
     assert_eq!(result.unwrap_err(), BuildError::Cancelled);
-    // What was waiting on the stack becomes leaves.
+    // The search of the root alone would ask more often, and what waits on the stack
+    // becomes leaves.
     let asked = observer.asked.into_inner();
     assert!(asked < 20 + BuildBudget::DEEPEST as usize, "{asked}");
+}
+
+#[test]
+fn no_more_references_are_made_than_allowed() {
+    let far = families::find("far-offset").expect("the family is there");
+    for (seed, max_duplication) in [(0, 0.0), (2, 0.1), (2, 1.0)] {
+        let triangles = far.scene(seed, 200);
+        for builder in [BspBuilder::default(), BspBuilder::original()] {
+            let tree = BspBuilder {
+                max_duplication,
+                ..builder
+            }
+            .build(&triangles)
+            .unwrap();
+            let references = tree.outline().ids.len();
+            let allowed = triangles.len() as f64 * (1.0 + max_duplication);
+            assert!(references as f64 <= allowed, "{references} {allowed}");
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! What trees are like.
 
-use accel_bsp::{BspBuilder, BspCosts, BspShape};
+use accel_bsp::glam::Vec3;
+use accel_bsp::{
+    AccelerationStructure, BspBuilder, BspCosts, BspShape, RaySegment, TraversalCounters,
+};
 use accel_core::testing::families;
 
 fn shape(family: &str, builder: &BspBuilder) -> BspShape {
@@ -16,6 +19,41 @@ fn leaves_of_a_scan_hold_one_triangle_and_never_more_than_four() {
         let filled: usize = leaves[1..].iter().sum();
         assert!(100 * leaves[1] >= 98 * filled, "{leaves:?}");
         assert!(leaves.len() <= 5, "{leaves:?}");
+    }
+}
+
+/// Planes of triangles in one sheet differ by rounding alone, and what lies between two
+/// of them is next to nothing, but rays find the whole sheet there. Leaves of such
+/// parts held hundreds of triangles.
+#[test]
+fn leaves_of_sheets_in_any_direction_hold_few_triangles() {
+    let builders = [
+        BspBuilder::default(),
+        BspBuilder::original(),
+        BspBuilder::with_planar_leaves(),
+    ];
+    for family in [
+        "sheet-rotated",
+        "sheet-rotated-45",
+        "circle-rotated-45",
+        "closed-room-of-strips",
+        "staircase-rotated",
+    ] {
+        let triangles = families::find(family).expect(family).scene(3, 2000);
+        for builder in builders {
+            let tree = builder.build(&triangles).unwrap();
+            let leaves = tree.shape().leaves_by_size;
+            assert!(leaves.len() <= 5, "{family} {builder:?} {leaves:?}");
+            let mut counters = TraversalCounters::default();
+            for triangle in &triangles {
+                let centroid = (triangle.a + triangle.b + triangle.c) / 3.0;
+                let towards = Vec3::new(0.3, -0.8, 0.5);
+                let ray = RaySegment::new(centroid - towards, towards);
+                tree.closest_hit_with(&ray, &mut counters);
+            }
+            let tests = counters.mean(&counters.primitive_tests);
+            assert!(tests < 3.0, "{family} {builder:?} {tests} tests a ray");
+        }
     }
 }
 
