@@ -126,6 +126,14 @@ fn twice(small: Vec4, large: Vec4) -> [f32; AXES_AND_CLASSES] {
     both
 }
 
+/// What a hit may be off per unit of `t` on an axis, however small the direction's
+/// component there: below the normal numbers it is no share of the component that is
+/// rounded, neither here nor in the kernel's shear, the ratio to the largest one.
+#[inline]
+pub(crate) fn least_rounding(largest_component: f32) -> f32 {
+    f32::MIN_POSITIVE * (4.0 * UNIT_ROUNDOFF * largest_component).max(1.0)
+}
+
 /// The part of the ray inside a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interval {
@@ -166,9 +174,10 @@ impl<'a> Crossings<'a> {
             origin: origin.extend(-1.0),
             direction: direction.extend(0.0),
             rounding_at_origin: origin.abs().extend(1.0) * at_the_origin,
-            // At least the smallest normal number: below, its own rounding shows.
             rounding_along: (direction.abs() * along_the_ray)
-                .max(Vec3::splat(f32::MIN_POSITIVE * tolerance.rounding))
+                .max(Vec3::splat(
+                    least_rounding(direction.abs().max_element()) * tolerance.rounding,
+                ))
                 .extend(0.0),
             slack: if may_overflow {
                 f32::NAN

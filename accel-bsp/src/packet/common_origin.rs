@@ -27,6 +27,8 @@ use accel_core::glam::{DVec3, Vec3, Vec4};
 use accel_core::simd::Lanes;
 use accel_core::structure::CellVisit;
 
+use crate::crossing::least_rounding;
+
 /// Bounds the rounding, relative to the terms of the speed.
 const ROUNDING: f64 = 32.0 * UNIT_ROUNDOFF as f64;
 
@@ -35,7 +37,8 @@ const ROUNDING: f64 = 32.0 * UNIT_ROUNDOFF as f64;
 pub struct CommonOrigin<L> {
     origin: DVec3,
     directions: [L; 3],
-    /// By axis, the largest component of the directions times [`ROUNDING`].
+    /// By axis, the largest component of the directions times [`ROUNDING`], or
+    /// [`least_rounding`].
     rounding: DVec3,
     /// By axis, for planes whose front holds the origin and for those whose back
     /// does: 1 over the speed at which the rays come nearer.
@@ -67,13 +70,16 @@ impl<L: Lanes> CommonOrigin<L> {
     #[inline(always)]
     pub(super) fn new(origin: Vec3, directions: [L; 3]) -> Self {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let largest = directions.map(|components| {
+            let components = components.lanes().iter();
+            components.fold(0.0_f32, |most, component| most.max(component.abs()))
+        });
+        let least = least_rounding(Vec3::from(largest).max_element());
         let mut rounding = DVec3::ZERO;
         let mut reciprocals = [[zero; 2]; 3];
         for axis in 0..3 {
             let speed = directions[axis];
-            let components = speed.lanes().iter();
-            let largest = components.fold(0.0_f32, |most, component| most.max(component.abs()));
-            rounding[axis] = f64::from(largest) * ROUNDING;
+            rounding[axis] = (f64::from(largest[axis]) * ROUNDING).max(f64::from(least));
             let least = L::splat(in_single(rounding[axis]));
             let speeds = [least.max_or_keep(zero - speed), least.max_or_keep(speed)];
             reciprocals[axis] = [one / speeds[0], one / speeds[1]];

@@ -6,6 +6,7 @@ use accel_core::testing::agreement::Expected;
 use accel_core::testing::families;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
 use accel_core::testing::packets::{check_width, ray_sets};
+use accel_core::testing::rays;
 
 fn check(effort: &Effort, builders: &[BspBuilder]) -> Checked {
     let build = |triangles: &[Triangle]| {
@@ -90,4 +91,31 @@ fn packets_of_every_variant_agree_with_brute_force_on_every_family() {
         }
     }
     assert!(hits > 5_000, "{hits}");
+}
+
+/// What the kernel rounds of them is no share of their direction.
+#[test]
+fn rays_whose_shear_has_no_digits_left_hit_what_they_must() {
+    let mut hits = 0;
+    for (seed, exponent) in (0..).zip([-30, -36, -42, -48, -54, -60]) {
+        let scene = tiny_scene(seed, 2.0_f32.powi(exponent));
+        let rays = rays::with_subnormal_ratios(&scene, seed, 1500);
+        let expected = Expected::new(&scene, rays).unwrap();
+        hits += expected.hits();
+        for builder in [BspBuilder::default(), BspBuilder::with_planar_leaves()] {
+            let tree = builder.build(&scene).unwrap();
+            let disagreements = expected.disagreements(&tree);
+            assert!(disagreements.is_empty(), "{}", disagreements[0]);
+            check_width::<_, 8>(&tree, &expected).unwrap_or_else(|error| panic!("{error}"));
+        }
+    }
+    assert!(hits > 800, "{hits}");
+}
+
+fn tiny_scene(seed: u64, scale: f32) -> Vec<Triangle> {
+    let family = families::find("closed-bumpy-sphere").expect("the family is there");
+    let triangles = family.scene(seed, 300).into_iter();
+    triangles
+        .map(|triangle| Triangle::new(triangle.a * scale, triangle.b * scale, triangle.c * scale))
+        .collect()
 }

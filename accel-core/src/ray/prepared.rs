@@ -76,7 +76,10 @@ impl PreparedRay {
         let t_min = if t_min > 0.0 { t_min } else { 0.0 };
         // False for a NaN bound as well.
         let has_interval = t_min <= t_max;
-        let reciprocal = Vec3::from_array(direction.to_array().map(usable_reciprocal));
+        let smallest = direction.abs().max_element() * SMALLEST_RATIO;
+        let components = direction.to_array();
+        let reciprocal =
+            Vec3::from_array(components.map(|component| usable_reciprocal(component, smallest)));
         if !has_interval {
             return None;
         }
@@ -105,8 +108,8 @@ impl PreparedRay {
     }
 
     /// One over the direction, infinite where a component is zero. Its sign is
-    /// the sign to order planes by. NaN where one over the component is no normal
-    /// number: such an axis constrains nothing.
+    /// the sign to order planes by. NaN where one over the component, or its ratio to
+    /// the largest one, is no normal number: such an axis constrains nothing.
     #[inline]
     pub fn reciprocal(&self) -> Vec3 {
         self.reciprocal
@@ -225,18 +228,25 @@ impl Shear {
 }
 
 /// One over a component of a direction, where that is as exact as the pads
-/// assume, or infinity for zero. Elsewhere, for components below about 1e-38 or
-/// above 1e38, NaN: an overflow would cull boxes that the ray meets.
+/// assume, or infinite for zero. Elsewhere NaN: for components below about 1e-38 or
+/// above 1e38, since an overflow would cull boxes that the ray meets; and for those
+/// below `smallest`.
 #[inline]
-fn usable_reciprocal(component: f32) -> f32 {
+fn usable_reciprocal(component: f32, smallest: f32) -> f32 {
     let reciprocal = 1.0 / component;
     let is_exact = (f32::MIN_POSITIVE..=LARGEST_RECIPROCAL).contains(&reciprocal.abs());
-    if is_exact || component == 0.0 {
+    if (is_exact && component.abs() >= smallest) || component == 0.0 {
         reciprocal
     } else {
         f32::NAN
     }
 }
+
+/// The smallest part of a direction's largest component that has a usable reciprocal.
+/// Of smaller ones the shear is below all normal numbers, where it is no share of
+/// itself that is rounded: where such a ray meets a plane of that axis is not where the
+/// kernel sees it.
+pub(super) const SMALLEST_RATIO: f32 = 2.0 * f32::MIN_POSITIVE;
 
 /// The largest magnitude of a usable reciprocal: leaves room for the pad.
 pub(super) const LARGEST_RECIPROCAL: f32 = f32::MAX / 2.0;

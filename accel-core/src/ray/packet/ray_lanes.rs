@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::{PacketRay, SharedFacts};
 use crate::geometry::{Aabb, Axis};
 use crate::ray::PreparedRay;
-use crate::ray::prepared::{FAR_PAD, LARGEST_RECIPROCAL, NEAR_PAD};
+use crate::ray::prepared::{FAR_PAD, LARGEST_RECIPROCAL, NEAR_PAD, SMALLEST_RATIO};
 use crate::simd::Lanes;
 
 /// As many rays as a vector has lanes, by coordinate.
@@ -55,10 +55,13 @@ impl<L: Lanes> RayLanes<L> {
         let reciprocal = [one / x, one / y, one / z];
         let (smallest, largest) = (L::splat(f32::MIN_POSITIVE), L::splat(LARGEST_RECIPROCAL));
         let (near_pad, far_pad) = (L::splat(NEAR_PAD), L::splat(FAR_PAD));
+        let direction = [x, y, z];
+        let smallest_component = magnitude(direction[main.index()]) * L::splat(SMALLEST_RATIO);
         let (mut near_reciprocal, mut far_reciprocal) = (reciprocal, reciprocal);
         for axis in 0..3 {
             let magnitude = magnitude(reciprocal[axis]);
             ready &= smallest.le_mask(magnitude) & magnitude.le_mask(largest);
+            ready &= smallest_component.le_mask(self::magnitude(direction[axis]));
             near_reciprocal[axis] = reciprocal[axis] * near_pad;
             far_reciprocal[axis] = reciprocal[axis] * far_pad;
         }
@@ -69,7 +72,7 @@ impl<L: Lanes> RayLanes<L> {
         };
         let lanes = Self {
             origin,
-            direction: [x, y, z],
+            direction,
             near_reciprocal,
             far_reciprocal,
             t_min,

@@ -148,5 +148,15 @@ pub fn mixed_near_and_far(triangles: &[Triangle], seed: u64, count: usize) -> Ve
     near.iter().copied().chain(far).collect()
 }
 
+/// `count` rays at a scene from so far along an axis that the kernel's shear has no
+/// digits left. They matter to scenes of `2^-30` and less.
+pub fn with_subnormal_ratios(triangles: &[Triangle], seed: u64, count: usize) -> Vec<RaySegment> {
+    let targets = Targets::of(triangles);
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let rays = 0..count;
+    rays.map(|_| aligned::subnormal_ratio(&targets, &mut rng))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests;
