@@ -12,7 +12,7 @@ use accel_core::archive::{
 };
 use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::LeafStorage;
-use accel_core::{Aabb, AccelerationStructure, BuildBudget, Polygonal};
+use accel_core::{Aabb, AccelerationStructure, BuildBudget, Polygonal, ValidationError};
 
 use crate::BspTree;
 use crate::node::{MAX_INDEX, Node};
@@ -55,7 +55,10 @@ impl<P: Polygonal> BspTree<P> {
     }
 
     /// The tree that [`to_bytes`](Self::to_bytes) saved, over the same primitives.
-    /// `bytes` may come from anywhere: all of them are validated.
+    ///
+    /// `bytes` may come from anywhere: all of them are validated, and queries of what
+    /// loads take bounded time and memory. Damage is found by the checksum; whoever
+    /// forges that too can move planes so that a tree loses hits.
     ///
     /// # Errors
     /// A [`LoadError`] that names what is wrong.
@@ -64,9 +67,10 @@ impl<P: Polygonal> BspTree<P> {
         let mut archive = ArchiveReader::new(bytes, KIND, VERSION, scene)?;
         let leaves = LeafLoader::new(primitives, &mut archive)?;
         let bounds = archive.bounds()?;
+        check_bounds(&bounds, primitives)?;
         let slacks = SharedSlacks {
-            small: finite(&mut archive)?,
-            large: finite(&mut archive)?,
+            small: slack(&mut archive)?,
+            large: slack(&mut archive)?,
         };
         let plane_count = archive.count(4)?;
         let planes = (0..plane_count).map(|_| read_plane(&mut archive));
@@ -142,6 +146,27 @@ fn read_node(archive: &mut ArchiveReader<'_>) -> Result<Node, LoadError> {
 fn read_plane(archive: &mut ArchiveReader<'_>) -> Result<Vec4, LoadError> {
     let mut number = || finite(archive);
     Ok(Vec4::new(number()?, number()?, number()?, number()?))
+}
+
+/// The box of a tree must hold all that can be hit.
+fn check_bounds<P: Polygonal>(bounds: &Aabb, primitives: &[P]) -> Result<(), LoadError> {
+    let boxes = primitives.iter().map(P::bounds);
+    let is_outside = |primitive: Aabb| primitive.is_valid() && !bounds.contains(&primitive);
+    match boxes.into_iter().position(is_outside) {
+        Some(id) => {
+            let (node, id) = (0, id as u32);
+            Err(ValidationError::PrimitiveNotEnclosed { node, id }.into())
+        }
+        None => Ok(()),
+    }
+}
+
+fn slack(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
+    let slack = finite(archive)?;
+    if slack.is_sign_positive() {
+        return Ok(slack);
+    }
+    out_of_range("the bits of a negative slack", slack.to_bits().into(), 0)
 }
 
 fn finite(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {

@@ -30,8 +30,9 @@ impl<P: Polygonal> BspTree<P> {
     /// [`SingleLeaves::Bounded`](crate::SingleLeaves::Bounded) has marked, where
     /// the ray crosses the plane; in others by the kernel.
     ///
-    /// Unlike every other query this may differ from brute force, near edges, and
-    /// in the last digits of `t`. On trees without marked leaves it does not.
+    /// Unlike every other query this may differ from brute force: near edges, in the
+    /// last digits of `t`, and where a ray starts or ends on a surface or near it, which
+    /// it may hit or pass. On trees without marked leaves it does not.
     pub fn closest_hit_unconfirmed(&self, ray: &impl Ray) -> Option<UnconfirmedHit> {
         self.closest_hit_unconfirmed_with(ray, &mut ())
     }

@@ -1,7 +1,7 @@
 //! Saved trees come back the same, and damaged ones are refused.
 
 use accel_bsp::{
-    AccelerationStructure, BspBuilder, BspTree, InvalidPrimitives, LoadError, Triangle,
+    AccelerationStructure, BspBuilder, BspTree, InvalidPrimitives, LoadError, Primitive, Triangle,
 };
 use accel_core::testing::damage::damaged_archives;
 use accel_core::testing::{families, rays};
@@ -65,6 +65,12 @@ fn random_damage_is_a_typed_error_or_a_tree_that_still_answers() {
             Err(_) => refused += 1,
             Ok(tree) => {
                 loaded += 1;
+                let bounds = tree.bounds().expect("no primitive is lost");
+                let mut boxes = triangles.iter().map(Triangle::bounds);
+                assert!(
+                    boxes.all(|triangle| bounds.contains(&triangle)),
+                    "{bounds:?}"
+                );
                 for ray in &rays {
                     tree.closest_hit(ray);
                     tree.all_hits(ray);

@@ -2,6 +2,7 @@
 //! primitives.
 
 use super::{ArchiveReader, LoadError, check_limit};
+use crate::error::ValidationError;
 use crate::layout::{LeafStorage, StoredPrimitives};
 use crate::primitive::Primitive;
 
@@ -62,8 +63,15 @@ impl<'a, P: Primitive> LeafLoader<'a, P> {
     /// without which it could not be hit.
     ///
     /// # Errors
-    /// [`LoadError::OutOfRange`] if another number of them does not.
+    /// [`LoadError::Unsound`] names a primitive with valid bounds that does not;
+    /// [`LoadError::OutOfRange`] if the number of the others is not that of the skipped.
     pub fn finish(self) -> Result<StoredPrimitives<P>, LoadError> {
+        let mut primitives = self.primitives.iter().zip(&self.is_held);
+        let is_lost = |(primitive, is_held): (&P, &bool)| !is_held && primitive.bounds().is_valid();
+        if let Some(id) = primitives.position(is_lost) {
+            let (id, count) = (id as u32, 0);
+            return Err(ValidationError::ReferenceCount { id, count }.into());
+        }
         let missing = self.is_held.iter().filter(|&&is_held| !is_held).count() as u64;
         let skipped = self.stored.skipped() as u64;
         check_limit("primitives in no leaf", missing, skipped)?;
