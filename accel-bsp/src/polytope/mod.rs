@@ -332,6 +332,11 @@ mod tests {
 
     #[test]
     fn estimated_areas_equal_those_of_the_parts_through_many_cuts() {
+        check_estimates(Reach::Exact, false);
+        check_estimates(Reach::Slack, true);
+    }
+
+    fn check_estimates(reach: Reach, is_on_plane: bool) {
         let mut random = 1_u32;
         let mut next = || {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -343,10 +348,10 @@ mod tests {
             let [low, high] = cell.bounds();
             let at = low + (high - low) * f64::from(next());
             let plane = through(at.as_vec3().to_array(), normal);
-            let Some(areas) = cell.split_areas(&plane, Reach::Exact, false, &mut distances) else {
+            let Some(areas) = cell.split_areas(&plane, reach, is_on_plane, &mut distances) else {
                 continue;
             };
-            let parts = cell.cut(&plane, Reach::Exact).unwrap();
+            let parts = cell.cut(&plane, reach).unwrap();
             for (part, area) in parts.iter().zip(areas) {
                 assert!((part.area() - area).abs() <= 1e-9 * cell.area());
             }

@@ -59,9 +59,9 @@ impl<L: Lanes> RayLanes<L> {
         let smallest_component = magnitude(direction[main.index()]) * L::splat(SMALLEST_RATIO);
         let (mut near_reciprocal, mut far_reciprocal) = (reciprocal, reciprocal);
         for axis in 0..3 {
-            let magnitude = magnitude(reciprocal[axis]);
-            ready &= smallest.le_mask(magnitude) & magnitude.le_mask(largest);
-            ready &= smallest_component.le_mask(self::magnitude(direction[axis]));
+            let of_reciprocal = magnitude(reciprocal[axis]);
+            ready &= smallest.le_mask(of_reciprocal) & of_reciprocal.le_mask(largest);
+            ready &= smallest_component.le_mask(magnitude(direction[axis]));
             near_reciprocal[axis] = reciprocal[axis] * near_pad;
             far_reciprocal[axis] = reciprocal[axis] * far_pad;
         }

@@ -87,16 +87,16 @@ pub(super) fn tiny_component(targets: &Targets, rng: &mut Pcg64Mcg) -> RaySegmen
 /// the direction to that one is a number below all normal ones, which is rounded by a
 /// good part of itself.
 pub(super) fn subnormal_ratio(targets: &Targets, rng: &mut Pcg64Mcg) -> RaySegment {
-    let exponents =
+    let power =
         |range: std::ops::Range<i32>, rng: &mut Pcg64Mcg| 2.0_f64.powi(rng.random_range(range));
     let axis = rng.random_range(0..3);
     let mut origin = targets.surface_point(rng);
-    let along = exponents(24..60, rng);
-    let way = exponents(95..126, rng);
+    let along = power(24..60, rng);
+    let way = power(95..126, rng);
     let mut direction = DVec3::ZERO;
     direction[axis] = along;
     for other in [(axis + 1) % 3, (axis + 2) % 3] {
-        direction[other] = along * exponents(-150..-130, rng) * rng.random_range(-1.0..1.0);
+        direction[other] = along * power(-150..-130, rng) * rng.random_range(-1.0..1.0);
     }
     let direction = rounded(direction);
     origin -= direction.as_dvec3() * (way / along);

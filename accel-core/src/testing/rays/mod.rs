@@ -148,14 +148,24 @@ pub fn mixed_near_and_far(triangles: &[Triangle], seed: u64, count: usize) -> Ve
     near.iter().copied().chain(far).collect()
 }
 
-/// `count` rays at a scene from so far along an axis that the kernel's shear has no
-/// digits left. They matter to scenes of `2^-30` and less.
-pub fn with_subnormal_ratios(triangles: &[Triangle], seed: u64, count: usize) -> Vec<RaySegment> {
-    let targets = Targets::of(triangles);
-    let mut rng = Pcg64Mcg::seed_from_u64(seed);
-    let rays = 0..count;
-    rays.map(|_| aligned::subnormal_ratio(&targets, &mut rng))
-        .collect()
+/// Tiny scenes, each with rays from so far along an axis that the kernel's shear has no
+/// digits left.
+pub fn with_subnormal_ratios() -> impl Iterator<Item = (Vec<Triangle>, Vec<RaySegment>)> {
+    const SCALES: [i32; 6] = [-30, -36, -42, -48, -54, -60];
+    let family = super::families::find("closed-bumpy-sphere").expect("the family is there");
+    (0..).zip(SCALES).map(move |(seed, exponent)| {
+        let scale = 2.0_f32.powi(exponent);
+        let scaled = |triangle: Triangle| {
+            let [a, b, c] = triangle.vertices().map(|corner| corner * scale);
+            Triangle::new(a, b, c)
+        };
+        let scene: Vec<Triangle> = family.scene(seed, 300).into_iter().map(scaled).collect();
+        let targets = Targets::of(&scene);
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let rays = (0..1500).map(|_| aligned::subnormal_ratio(&targets, &mut rng));
+        let rays = rays.collect();
+        (scene, rays)
+    })
 }
 
 #[cfg(test)]
