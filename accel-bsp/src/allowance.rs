@@ -18,10 +18,10 @@ pub(crate) struct Allowance {
 }
 
 impl Allowance {
-    /// Of a whole tree.
-    pub(crate) fn new(builder: &BspBuilder, primitives: usize) -> Self {
+    /// Of a whole tree whose splits may add so many references.
+    pub(crate) fn new(builder: &BspBuilder, primitives: usize, duplicates: usize) -> Self {
         Self {
-            duplicates: (builder.max_duplication * primitives as f64) as usize,
+            duplicates,
             nodes: builder.max_nodes.unwrap_or(MAX_INDEX).min(MAX_INDEX),
             candidates: builder.max_candidates.saturating_mul(primitives),
         }

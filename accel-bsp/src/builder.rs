@@ -37,8 +37,8 @@ pub struct BspBuilder {
     pub sampled_primitives: Option<usize>,
     /// How many references all splits together may add, for each primitive;
     /// shared out from the root down. A limit, rarely met: a scan needs about 3,
-    /// but corners where many primitives meet need a large share.
-    /// Finite and at least 0.
+    /// but corners where many primitives meet need a large share. A limit on bytes
+    /// lowers it. Finite and at least 0.
     pub max_duplication: f64,
     /// How many nodes the tree may have, at least 1; nodes without a share of them
     /// become leaves. `None` for as many as indices can tell apart.
@@ -106,26 +106,31 @@ impl BspBuilder {
     }
 
     /// BSP-tri, every hit confirmed by the kernel (section 4.3).
+    ///
+    /// C_i is 4 here instead of 1, so that nearly all leaves hold one triangle, as in the
+    /// paper's Table 3.
     pub fn with_planar_leaves() -> Self {
-        Self {
-            single_leaves: SingleLeaves::Planar,
-            ..Self::default()
-        }
+        Self::with_single_leaves(SingleLeaves::Planar, 4.0)
     }
 
     /// BSP-tri as in the paper, whose hits
     /// [`closest_hit_unconfirmed`](BspTree::closest_hit_unconfirmed) takes from the
     /// traversal (section 4.3).
     ///
-    /// C_i is 16 here instead of 4: the more is split, the more triangles are tightly
+    /// C_i is 16 here instead of 1: the more is split, the more triangles are tightly
     /// bound and need no test (section 5.1).
     pub fn with_bounded_leaves() -> Self {
+        Self::with_single_leaves(SingleLeaves::Bounded, 16.0)
+    }
+
+    fn with_single_leaves(single_leaves: SingleLeaves, intersection: f64) -> Self {
+        let costs = BspCosts {
+            intersection,
+            ..BspCosts::default()
+        };
         Self {
-            costs: BspCosts {
-                intersection: 16.0,
-                ..BspCosts::default()
-            },
-            single_leaves: SingleLeaves::Bounded,
+            costs,
+            single_leaves,
             ..Self::default()
         }
     }
@@ -149,8 +154,7 @@ impl BspBuilder {
         observer: &dyn BuildObserver,
     ) -> Result<BspTree<P>, BuildError> {
         self.validate()?;
-        self.budget
-            .check_bytes(self.working_bytes(primitives.len()))?;
+        let duplicates = self.duplicates_within_budget(primitives.len())?;
         let gathered = gather(primitives, self.invalid_primitives)?;
         let (bounds, skipped) = (gathered.bounds, gathered.skipped);
         if gathered.references.is_empty() {
@@ -165,7 +169,7 @@ impl BspBuilder {
         let task = Task {
             pieces: Pieces::new(primitives, &gathered.references),
             cell: Polytope::of_box(&bounds),
-            allowance: Allowance::new(self, count),
+            allowance: Allowance::new(self, count, duplicates),
         };
         drop(gathered.references);
         let tree = build_top_down(&strategy, task, 0, observer)?;
@@ -217,12 +221,20 @@ impl BspBuilder {
         }
     }
 
-    /// Bytes that pieces and nodes may take while a tree is built over this many
-    /// primitives, about.
-    pub fn working_bytes(&self, primitives: usize) -> usize {
+    /// Bytes that pieces and nodes take at most, about, while a tree of this many
+    /// references in leaves is built.
+    pub fn working_bytes(&self, references: usize) -> usize {
         const BYTES_PER_PIECE: usize = 256;
-        let references = primitives as f64 * (1.0 + self.max_duplication);
-        (references as usize).saturating_mul(BYTES_PER_PIECE)
+        references.saturating_mul(BYTES_PER_PIECE)
+    }
+
+    /// How many references splits may add over this many primitives.
+    fn duplicates_within_budget(&self, primitives: usize) -> Result<usize, BuildError> {
+        self.budget.check_bytes(self.working_bytes(primitives))?;
+        let within_bytes = (self.budget.max_bytes).map_or(usize::MAX, |bytes| {
+            bytes / self.working_bytes(1) - primitives
+        });
+        Ok(within_bytes.min((self.max_duplication * primitives as f64) as usize))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The rows of accel-bsp.
 
-use accel_bsp::{BspBuilder, BspCosts};
+use accel_bsp::BspBuilder;
 use accel_core::{BuildError, BuildObserver, InvalidPrimitives, SurfaceAreaHeuristic, Triangle};
 
 use super::{Row, Structure};
@@ -10,7 +10,7 @@ pub(super) static ROWS: &[Row] = &[
         name: "bsp",
         is_headline: false,
         about: "general BSP tree with a fast path for axis-aligned planes, 8-byte nodes, planes apart",
-        settings: "C_i 4, C_kd 1, C_BSP 1.75, alpha 0.1, epsilon 2^-20, planes of 256 triangles, \
+        settings: "C_i 1, C_kd 1, C_BSP 1.75, alpha 0.1, epsilon 2^-20, planes of 256 triangles, \
                    general ones where others gain less than 40 %",
         heuristic,
         build: |triangles, invalid, observer| {
@@ -31,8 +31,8 @@ pub(super) static ROWS: &[Row] = &[
         name: "bsp-tri",
         is_headline: false,
         about: "BSP tree whose leaves of one triangle test its plane before the triangle",
-        settings: "as bsp, planar leaves; every hit confirmed by the kernel",
-        heuristic,
+        settings: "as bsp, C_i 4, planar leaves; every hit confirmed by the kernel",
+        heuristic: tri_heuristic,
         build: |triangles, invalid, observer| {
             let builder = BspBuilder::with_planar_leaves();
             build_bsp(builder, triangles, invalid, observer)
@@ -41,7 +41,15 @@ pub(super) static ROWS: &[Row] = &[
 ];
 
 pub(super) fn heuristic() -> SurfaceAreaHeuristic {
-    let costs = BspCosts::default();
+    heuristic_of(&BspBuilder::default())
+}
+
+pub(super) fn tri_heuristic() -> SurfaceAreaHeuristic {
+    heuristic_of(&BspBuilder::with_planar_leaves())
+}
+
+fn heuristic_of(builder: &BspBuilder) -> SurfaceAreaHeuristic {
+    let costs = &builder.costs;
     SurfaceAreaHeuristic {
         traversal_cost: costs.axis_aligned,
         intersection_cost: costs.intersection,

@@ -115,7 +115,7 @@ pub(super) static ROWS: &[Row] = &[
         is_headline: false,
         about: "bsp-tri in packets of 8 rays of one origin, one vector of 8 lanes",
         settings: "as bsp-tri; coherent rays only",
-        heuristic: bsp::heuristic,
+        heuristic: bsp::tri_heuristic,
         build: |triangles, invalid, observer| {
             build_bsp::<8>(
                 BspBuilder::with_planar_leaves(),
@@ -130,7 +130,7 @@ pub(super) static ROWS: &[Row] = &[
         is_headline: false,
         about: "bsp-tri in packets of 4 rays of one origin",
         settings: "as bsp-tri; coherent rays only",
-        heuristic: bsp::heuristic,
+        heuristic: bsp::tri_heuristic,
         build: |triangles, invalid, observer| {
             build_bsp::<4>(
                 BspBuilder::with_planar_leaves(),
@@ -145,7 +145,7 @@ pub(super) static ROWS: &[Row] = &[
         is_headline: false,
         about: "bsp-tri in packets of 16 rays of one origin, one vector of 16 lanes",
         settings: "as bsp-tri; coherent rays only",
-        heuristic: bsp::heuristic,
+        heuristic: bsp::tri_heuristic,
         build: |triangles, invalid, observer| {
             build_bsp::<16>(
                 BspBuilder::with_planar_leaves(),

@@ -142,6 +142,14 @@ fn budgets_bound_bytes_depth_and_references() {
         BuildError::BudgetExceeded { limit: 1000, .. }
     ));
     assert_eq!(budget(None, 5).build(&triangles).unwrap().depth(), 5);
+    // Bytes for half as many references again make a tree of no more.
+    for references in [2000, 3000] {
+        let bytes = BspBuilder::default().working_bytes(references);
+        let tree = budget(Some(bytes), 120).build(&triangles).unwrap();
+        let held = tree.outline().ids.len();
+        assert!((2000..=references).contains(&held), "{held}");
+        assert!(agrees(&tree, &triangles), "{references}");
+    }
     for max_duplication in [0.0, 0.5, 2.0] {
         let builder = BspBuilder {
             max_duplication,
@@ -190,7 +198,7 @@ fn axis_aligned_planes_whose_slack_none_shares_keep_their_own() {
             general: GeneralPlanes::UpTo(0),
             ..CandidatePlanes::default()
         },
-        ..BspBuilder::default()
+        ..BspBuilder::with_planar_leaves()
     };
     let shape = |triangles: &[Triangle]| {
         let tree = builder.build(triangles).unwrap();

@@ -11,7 +11,7 @@ use accel_core::{
 };
 use accel_kdtree::KdTree;
 
-use super::tuning::{self, KdTreeCosts, Tuned};
+use super::tuning::{self, BspTuning, KdTreeCosts, Tuned};
 use super::unconfirmed::Unconfirmed;
 use crate::registry::Structure;
 
@@ -57,8 +57,7 @@ pub(super) struct Built {
     pub methods: Vec<Method>,
     pub facts: Vec<TreeFacts>,
     pub tuned_kd_tree: Tuned<KdTreeCosts>,
-    /// By its C_i.
-    pub tuned_bsp_tri: Tuned<f64>,
+    pub tuned_bsp_tri: Tuned<BspTuning>,
 }
 
 /// Builds all of them; the kd-tree and a BSP-tri are the fastest of several on `rays`.

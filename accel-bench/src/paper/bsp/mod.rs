@@ -14,7 +14,7 @@ mod tuning;
 mod unconfirmed;
 mod work;
 
-use accel_bsp::BspCosts;
+use accel_bsp::BspBuilder;
 use accel_core::{DynStructure, InvalidPrimitives};
 
 use super::Found;
@@ -136,10 +136,11 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
     let kd_trees: Vec<String> = tried
         .map(|((cost, bonus), speed)| format!("{cost:.0}/{bonus} {speed:.3}"))
         .collect();
+    let untuned = BspBuilder::with_planar_leaves().costs;
     let bsp_tri = &built.tuned_bsp_tri;
     let tried = bsp_tri.tried.iter();
     let bsp_trees: Vec<String> = tried
-        .map(|(cost, speed)| format!("{cost} {speed:.3}"))
+        .map(|(tuning, speed)| format!("{tuning} {speed:.3}"))
         .collect();
     let mut notes = vec![
         format!(
@@ -155,10 +156,12 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
         format!(
             "The kd-tree is swept, with K_T {traversal_cost:.0} for a K_I of 20 and an empty-space bonus \
              of {empty_bonus}: the fastest on the camera's rays of K_T/bonus (Mrays/s) {}. BSP-tri tuned \
-             has C_i {} instead of {}: the fastest of {}.",
+             has C_i/C_BSP/alpha/tangents {} instead of {}/{}/{}/0: the fastest of {}.",
             kd_trees.join(", "),
             bsp_tri.setting,
-            BspCosts::default().intersection,
+            untuned.intersection,
+            untuned.general,
+            untuned.alpha.unwrap_or_default(),
             bsp_trees.join(", ")
         ),
         "BSP-tri confirms every hit with the kernel: it counts a traversal-based test where a leaf's \

@@ -1,7 +1,9 @@
 //! Trees that are tuned for the scene: the paper compares with "an optimized kd-tree",
 //! and so its costs must not be to its disadvantage, nor those of the BSP tree.
 
-use accel_bsp::{BspBuilder, BspCosts, BspTree};
+use std::fmt;
+
+use accel_bsp::{BspBuilder, BspCosts, BspTree, CandidatePlanes};
 use accel_core::{BuildError, DynStructure, InvalidPrimitives, RaySegment, Triangle};
 use accel_kdtree::{KdTree, KdTreeBuilder};
 
@@ -14,17 +16,66 @@ use crate::report::model::Spread;
 /// off empty space.
 pub(super) type KdTreeCosts = (f64, f64);
 
-const OF_KD_TREES: [KdTreeCosts; 6] = [
+const OF_KD_TREES: [KdTreeCosts; 7] = [
     (15.0, 0.2),
     (30.0, 0.2),
     (60.0, 0.2),
+    (120.0, 0.2),
     (30.0, 0.0),
     (15.0, 0.0),
     (5.0, 0.2),
 ];
 
-/// C_i, the cost of testing a triangle, in costs of an axis-aligned node.
-const OF_BSP_TREES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+/// What a BSP tree is tuned by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BspTuning {
+    costs: BspCosts,
+    /// How many other corners each edge makes planes with (section 6.1).
+    tangents: usize,
+}
+
+/// With the paper's costs of nodes, and with those that are measured here, which curved
+/// surfaces gain by, if planes are tangent to many triangles.
+fn of_bsp_trees() -> [BspTuning; 6] {
+    let of_the_paper = |intersection| BspTuning {
+        costs: BspCosts {
+            intersection,
+            ..BspCosts::default()
+        },
+        tangents: 0,
+    };
+    let measured = |intersection| BspTuning {
+        costs: BspCosts {
+            intersection,
+            general: 1.1,
+            alpha: None,
+            ..BspCosts::default()
+        },
+        tangents: 2,
+    };
+    [
+        of_the_paper(0.5),
+        of_the_paper(1.0),
+        of_the_paper(2.0),
+        of_the_paper(4.0),
+        measured(0.5),
+        measured(1.0),
+    ]
+}
+
+impl fmt::Display for BspTuning {
+    /// C_i/C_BSP/alpha/tangents.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let costs = &self.costs;
+        let alpha = costs.alpha.map_or("none".into(), |alpha| alpha.to_string());
+        let (intersection, general) = (costs.intersection, costs.general);
+        write!(
+            formatter,
+            "{intersection}/{general}/{alpha}/{}",
+            self.tangents
+        )
+    }
+}
 
 const ROUNDS: usize = 5;
 
@@ -61,12 +112,13 @@ pub(super) fn bsp_tri(
     triangles: &[Triangle],
     invalid_primitives: InvalidPrimitives,
     rays: &[RaySegment],
-) -> Result<(Tuned<f64>, BspTree<Triangle>), BuildError> {
-    fastest(&OF_BSP_TREES, rays, |intersection| {
+) -> Result<(Tuned<BspTuning>, BspTree<Triangle>), BuildError> {
+    fastest(&of_bsp_trees(), rays, |tuning| {
         let builder = BspBuilder {
-            costs: BspCosts {
-                intersection,
-                ..BspCosts::default()
+            costs: tuning.costs,
+            candidate_planes: CandidatePlanes {
+                tangents: tuning.tangents,
+                ..CandidatePlanes::default()
             },
             invalid_primitives,
             ..BspBuilder::with_planar_leaves()
