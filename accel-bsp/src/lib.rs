@@ -80,8 +80,9 @@ pub use unconfirmed::UnconfirmedHit;
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PacketTraversal, Polygonal,
-    PreparedRay, Primitive, Quad, Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic,
-    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, Archive, BuildBudget, BuildError,
+    BuildObserver, ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PacketTraversal,
+    Polygonal, PreparedRay, Primitive, Quad, Query, Ray, RaySegment, ReadError, Sphere,
+    SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics, TreeStatistics, Triangle,
+    ValidationError, glam,
 };

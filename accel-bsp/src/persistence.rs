@@ -7,12 +7,12 @@
 //! ```
 
 use accel_core::archive::{
-    ArchiveReader, ArchiveWriter, LeafLoader, LoadError, check_limit, scene_of_slice,
-    scene_of_structure,
+    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, check_limit,
+    scene_of_slice, scene_of_structure,
 };
 use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::LeafStorage;
-use accel_core::{Aabb, AccelerationStructure, BuildBudget, Polygonal, ValidationError};
+use accel_core::{Aabb, AccelerationStructure, Polygonal, ValidationError};
 
 use crate::BspTree;
 use crate::node::{MAX_INDEX, Node};
@@ -22,9 +22,23 @@ use crate::shared_slacks::SharedSlacks;
 const KIND: [u8; 8] = *b"accelbsp";
 const VERSION: u32 = 3;
 
-impl<P: Polygonal> BspTree<P> {
-    /// The tree as bytes, without its primitives, on any machine the same.
-    pub fn to_bytes(&self) -> Vec<u8> {
+/// What loads takes bounded time and memory to query. Damage is found by the checksum;
+/// whoever forges that too can move planes so that a tree loses hits.
+///
+/// ```
+/// use accel_bsp::{Archive, BspBuilder, BspTree, Triangle};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let triangles = [Triangle::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0])];
+/// let mut file = Vec::new();
+/// BspBuilder::default().build(&triangles)?.write_to(&mut file)?;
+/// let tree = BspTree::read_from(file.as_slice(), 1 << 20, &triangles)?;
+/// # Ok(())
+/// # }
+/// ```
+impl<P: Polygonal> Archive for BspTree<P> {
+    type Error = LoadError;
+
+    fn to_bytes(&self) -> Vec<u8> {
         let scene = scene_of_structure(self, corners);
         let mut archive = ArchiveWriter::new(KIND, VERSION, scene);
         archive.push(self.skipped_count() as u32);
@@ -54,15 +68,7 @@ impl<P: Polygonal> BspTree<P> {
         archive.finish()
     }
 
-    /// The tree that [`to_bytes`](Self::to_bytes) saved, over the same primitives.
-    ///
-    /// `bytes` may come from anywhere: all of them are validated, and queries of what
-    /// loads take bounded time and memory. Damage is found by the checksum; whoever
-    /// forges that too can move planes so that a tree loses hits.
-    ///
-    /// # Errors
-    /// A [`LoadError`] that names what is wrong.
-    pub fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, LoadError> {
+    fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, LoadError> {
         let scene = scene_of_slice(primitives, corners);
         let mut archive = ArchiveReader::new(bytes, KIND, VERSION, scene)?;
         let leaves = LeafLoader::new(primitives, &mut archive)?;
@@ -108,16 +114,10 @@ impl<P: Polygonal> Loading<'_, P> {
     /// be met once, so the walk ends.
     fn read_leaves(&mut self) -> Result<(), LoadError> {
         let count = self.nodes.len();
-        let mut is_met = vec![false; count];
+        let mut met = MetOnce::new(count);
         let mut pending = Vec::from_iter((count > 0).then_some((0_usize, 0_u32)));
-        let mut met = 0;
         while let Some((index, depth)) = pending.pop() {
-            check_limit("node", index as u64, count as u64 - 1)?;
-            check_limit("depth", u64::from(depth), u64::from(BuildBudget::DEEPEST))?;
-            if std::mem::replace(&mut is_met[index], true) {
-                return out_of_range("a second parent of node", index as u64, 0);
-            }
-            met += 1;
+            met.meet(index..index + 1, depth)?;
             self.depth = self.depth.max(depth);
             let node = self.nodes.node(index as u32);
             if node.is_general() {
@@ -135,7 +135,7 @@ impl<P: Polygonal> Loading<'_, P> {
                     .replace(index as u32, node.with_leaf_number(leaf));
             }
         }
-        check_limit("nodes", count as u64, met)
+        met.finish()
     }
 }
 

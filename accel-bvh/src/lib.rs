@@ -88,8 +88,9 @@ pub use wide_collapse::{KeptNode, WideCollapse};
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InPackets, InvalidPrimitives, LoadError, PacketTraversal,
-    PreparedRay, Primitive, Query, Ray, RaySegment, RefitError, Sphere, SurfaceAreaHeuristic,
-    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, Archive, BuildBudget, BuildError,
+    BuildObserver, ClosestHit, Filtered, Hit, InPackets, InvalidPrimitives, LoadError,
+    PacketTraversal, PreparedRay, Primitive, Query, Ray, RaySegment, ReadError, RefitError, Sphere,
+    SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics, TreeStatistics, Triangle,
+    ValidationError, glam,
 };

@@ -9,11 +9,11 @@
 //! for primitives that stand in several leaves, of whose parts nothing is saved.
 
 use accel_core::archive::{
-    ArchiveReader, ArchiveWriter, LeafLoader, LoadError, bounds_of_scene, check_limit,
-    scene_of_slice, scene_of_structure,
+    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_scene,
+    check_limit, scene_of_slice, scene_of_structure,
 };
 use accel_core::layout::{LeafStorage, StoredPrimitives};
-use accel_core::{Aabb, AccelerationStructure, BuildBudget, Primitive};
+use accel_core::{Aabb, AccelerationStructure, Primitive};
 
 use crate::Bvh;
 use crate::bvh::Root;
@@ -22,19 +22,19 @@ use crate::node::{INNER_WORDS, LEAF_WORDS, Node, NodePointer};
 const KIND: [u8; 8] = *b"accelbvh";
 const VERSION: u32 = 1;
 
-impl<P: Primitive> Bvh<P> {
-    /// The tree as bytes, without its primitives, on any machine the same.
-    ///
-    /// ```
-    /// use accel_bvh::{Bvh, BvhBuilder, Sphere};
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let spheres = [Sphere::new([0.0; 3], 1.0), Sphere::new([4.0, 0.0, 0.0], 1.0)];
-    /// let bytes = BvhBuilder::default().build(&spheres)?.to_bytes();
-    /// let bvh = Bvh::from_bytes(&bytes, &spheres)?;
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn to_bytes(&self) -> Vec<u8> {
+/// ```
+/// use accel_bvh::{Archive, Bvh, BvhBuilder, Sphere};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let spheres = [Sphere::new([0.0; 3], 1.0), Sphere::new([4.0, 0.0, 0.0], 1.0)];
+/// let bytes = BvhBuilder::default().build(&spheres)?.to_bytes();
+/// let bvh = Bvh::from_bytes(&bytes, &spheres)?;
+/// # Ok(())
+/// # }
+/// ```
+impl<P: Primitive> Archive for Bvh<P> {
+    type Error = LoadError;
+
+    fn to_bytes(&self) -> Vec<u8> {
         let scene = scene_of_structure(self, bounds_of_scene);
         let mut archive = ArchiveWriter::new(KIND, VERSION, scene);
         archive.push(self.skipped_count() as u32);
@@ -53,12 +53,7 @@ impl<P: Primitive> Bvh<P> {
         archive.finish()
     }
 
-    /// The tree that [`to_bytes`](Self::to_bytes) saved, over the same primitives.
-    /// `bytes` may come from anywhere: all of them are validated.
-    ///
-    /// # Errors
-    /// A [`LoadError`] that names what is wrong.
-    pub fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, LoadError> {
+    fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, LoadError> {
         let scene = scene_of_slice(primitives, bounds_of_scene);
         let mut archive = ArchiveReader::new(bytes, KIND, VERSION, scene)?;
         let leaves = LeafLoader::new(primitives, &mut archive)?;
@@ -73,7 +68,7 @@ impl<P: Primitive> Bvh<P> {
         let mut loading = Loading {
             archive,
             leaves,
-            is_met: vec![false; words.len()],
+            met: MetOnce::new(words.len()),
             bvh: Self {
                 words,
                 stored: StoredPrimitives::new(&[], 0, 0),
@@ -82,6 +77,7 @@ impl<P: Primitive> Bvh<P> {
             },
         };
         loading.read_leaves()?;
+        loading.met.finish()?;
         loading.archive.finish()?;
         let mut bvh = loading.bvh;
         bvh.stored = loading.leaves.finish()?;
@@ -94,7 +90,7 @@ struct Loading<'a, P: Primitive> {
     archive: ArchiveReader<'a>,
     leaves: LeafLoader<'a, P>,
     /// By word.
-    is_met: Vec<bool>,
+    met: MetOnce,
     /// Without leaves, until all are read.
     bvh: Bvh<P>,
 }
@@ -105,36 +101,25 @@ impl<P: Primitive> Loading<'_, P> {
     fn read_leaves(&mut self) -> Result<(), LoadError> {
         let mut pending = Vec::from_iter(self.bvh.root.map(|root| (root.pointer, 0)));
         while let Some((pointer, depth)) = pending.pop() {
-            check_limit("depth", depth.into(), BuildBudget::DEEPEST.into())?;
             self.bvh.depth = self.bvh.depth.max(depth);
             match pointer.kind() {
                 Node::Leaf(offset) => {
-                    self.meet(offset, LEAF_WORDS)?;
+                    self.meet(offset, LEAF_WORDS, depth)?;
                     let leaf = self.leaves.read_leaf(&mut self.archive)?;
                     self.bvh.words[offset as usize] = leaf;
                 }
                 Node::Inner(offset) => {
-                    self.meet(offset, INNER_WORDS)?;
+                    self.meet(offset, INNER_WORDS, depth)?;
                     let [left, right] = self.bvh.inner_node(offset).children().pointers();
                     pending.extend([(right, depth + 1), (left, depth + 1)]);
                 }
             }
         }
-        let unmet = self.is_met.iter().filter(|&&is_met| !is_met).count();
-        check_limit("words of no node", unmet as u64, 0)
+        Ok(())
     }
 
-    fn meet(&mut self, offset: u32, words: usize) -> Result<(), LoadError> {
-        let end = offset as usize + words;
-        check_limit(
-            "a node that ends at word",
-            end as u64,
-            self.is_met.len() as u64,
-        )?;
-        let own = &mut self.is_met[offset as usize..end];
-        let again = own.iter().filter(|&&is_met| is_met).count();
-        check_limit("words of two nodes", again as u64, 0)?;
-        own.fill(true);
-        Ok(())
+    fn meet(&mut self, offset: u32, words: usize, depth: u32) -> Result<(), LoadError> {
+        let offset = offset as usize;
+        self.met.meet(offset..offset + words, depth)
     }
 }

@@ -22,7 +22,7 @@ pub mod structure;
 #[cfg(feature = "testing")]
 pub mod testing;
 
-pub use archive::LoadError;
+pub use archive::{Archive, LoadError, ReadError};
 pub use brute_force::BruteForce;
 pub use build::{BuildBudget, BuildObserver, InvalidPrimitives};
 pub use error::{BuildError, RefitError, ValidationError};

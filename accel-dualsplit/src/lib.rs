@@ -80,8 +80,8 @@ pub use accel_bvh::{Bvh, BvhBuilder, LeafRule, ObjectSplit};
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PreparedRay, Primitive, Query, Ray,
-    RaySegment, RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, Archive, BuildBudget, BuildError,
+    BuildObserver, ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PreparedRay, Primitive,
+    Query, Ray, RaySegment, ReadError, RefitError, Sphere, SurfaceAreaHeuristic, TraversalCounters,
+    TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

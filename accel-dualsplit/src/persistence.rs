@@ -11,7 +11,7 @@
 use std::marker::PhantomData;
 
 use accel_core::archive::{
-    ArchiveReader, ArchiveWriter, LeafLoader, LoadError, bounds_of_scene, check_limit,
+    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, bounds_of_scene, check_limit,
     scene_of_slice, scene_of_structure,
 };
 use accel_core::layout::LeafStorage;
@@ -25,20 +25,20 @@ use crate::validate::check_words;
 
 const VERSION: u32 = 1;
 
-impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
-    /// The tree as bytes, without its primitives, on any machine the same.
-    ///
-    /// ```
-    /// use accel_dualsplit::{BvhBuilder, DualSplitConverter, DualSplitTree, Sphere};
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let spheres = [Sphere::new([0.0; 3], 1.0), Sphere::new([4.0, 0.0, 0.0], 1.0)];
-    /// let bvh = BvhBuilder::default().build(&spheres)?;
-    /// let bytes = DualSplitConverter::default().convert(&bvh)?.to_bytes();
-    /// let tree = DualSplitTree::from_bytes(&bytes, &spheres)?;
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn to_bytes(&self) -> Vec<u8> {
+/// ```
+/// use accel_dualsplit::{Archive, BvhBuilder, DualSplitConverter, DualSplitTree, Sphere};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let spheres = [Sphere::new([0.0; 3], 1.0), Sphere::new([4.0, 0.0, 0.0], 1.0)];
+/// let bvh = BvhBuilder::default().build(&spheres)?;
+/// let bytes = DualSplitConverter::default().convert(&bvh)?.to_bytes();
+/// let tree = DualSplitTree::from_bytes(&bytes, &spheres)?;
+/// # Ok(())
+/// # }
+/// ```
+impl<P: Primitive, N: NodeSet> Archive for PlaneTree<P, N> {
+    type Error = PlaneTreeLoadError;
+
+    fn to_bytes(&self) -> Vec<u8> {
         let scene = scene_of_structure(self, bounds_of_scene);
         let mut archive = ArchiveWriter::new(N::ARCHIVE_KIND, VERSION, scene);
         archive.push(self.skipped_count() as u32);
@@ -52,12 +52,7 @@ impl<P: Primitive, N: NodeSet> PlaneTree<P, N> {
         archive.finish()
     }
 
-    /// The tree that [`to_bytes`](Self::to_bytes) saved, over the same primitives.
-    /// `bytes` may come from anywhere: all of them are validated.
-    ///
-    /// # Errors
-    /// A [`PlaneTreeLoadError`] that names what is wrong.
-    pub fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, PlaneTreeLoadError> {
+    fn from_bytes(bytes: &[u8], primitives: &[P]) -> Result<Self, PlaneTreeLoadError> {
         let scene = scene_of_slice(primitives, bounds_of_scene);
         let mut archive = ArchiveReader::new(bytes, N::ARCHIVE_KIND, VERSION, scene)?;
         let mut leaves = LeafLoader::new(primitives, &mut archive)?;

@@ -40,7 +40,7 @@
 //! `division` carries it out, clipping by `part`, which tells why no hit is lost;
 //! `layout` packs the tree into the words of `node`; `traversal` walks them, by
 //! where a ray is `crossing` planes; `packet` does so for many rays at once;
-//! `validate` checks.
+//! `validate` checks; `persistence` saves and loads.
 //!
 //! # Complexity
 //! With n primitives, r references that splits create, and depth D, the sweep
@@ -57,6 +57,7 @@ mod layout;
 mod node;
 mod packet;
 mod part;
+mod persistence;
 mod plane;
 mod splitting;
 mod sweep;
@@ -74,8 +75,8 @@ pub use work::Work;
 pub use accel_core::layout::{Indexed, LeafOrdered};
 pub use accel_core::primitive::{Face, Intersection, SurfacePoint, triangles_of_mesh};
 pub use accel_core::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    Clip, ClosestHit, Filtered, Hit, InvalidPrimitives, PacketTraversal, PreparedRay, Primitive,
-    Query, Ray, RaySegment, Sphere, SurfaceAreaHeuristic, TraversalCounters, TraversalStatistics,
-    TreeStatistics, Triangle, ValidationError, glam,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, Archive, BuildBudget, BuildError,
+    BuildObserver, Clip, ClosestHit, Filtered, Hit, InvalidPrimitives, LoadError, PacketTraversal,
+    PreparedRay, Primitive, Query, Ray, RaySegment, ReadError, Sphere, SurfaceAreaHeuristic,
+    TraversalCounters, TraversalStatistics, TreeStatistics, Triangle, ValidationError, glam,
 };

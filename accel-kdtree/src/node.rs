@@ -117,6 +117,17 @@ impl Node {
     pub(crate) fn words(self) -> [u32; 2] {
         [self.word, self.position.to_bits()]
     }
+
+    /// The node of these words; `None` where they mean none.
+    pub(crate) fn from_words([word, position]: [u32; 2]) -> Option<Self> {
+        let position = f32::from_bits(position);
+        let node = Self { word, position };
+        let is_inner = node.axis_index() < Axis::ALL.len() && position.is_finite();
+        match node.as_leaf() {
+            Some(leaf) => (node.words() == Self::leaf(leaf).words()).then_some(node),
+            None => is_inner.then_some(node),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -135,10 +146,19 @@ mod tests {
                 };
                 assert_eq!(node.kind(), kind);
                 assert_eq!((node.axis_index(), node.position()), (axis.index(), -2.5));
+                assert_eq!(Node::from_words(node.words()), Some(node));
             }
         }
         for leaf in [Leaf::Empty, Leaf::Of(0), Leaf::Of(MAX_INDEX as u32)] {
-            assert_eq!(Node::leaf(leaf).kind(), NodeKind::Leaf(leaf));
+            let node = Node::leaf(leaf);
+            assert_eq!(node.kind(), NodeKind::Leaf(leaf));
+            assert_eq!(Node::from_words(node.words()), Some(node));
+        }
+        let inner = Node::inner(Axis::X, 1.0, 0).words()[0];
+        let no_axis = inner | AXIS_MASK;
+        let spare_bits = Node::leaf(Leaf::Empty).words()[0] | AXIS_MASK;
+        for (word, position) in [(no_axis, 1.0), (inner, f32::INFINITY), (spare_bits, 0.0)] {
+            assert_eq!(Node::from_words([word, position.to_bits()]), None);
         }
         assert_eq!(MAX_INDEX, (1 << 29) - 2);
     }

@@ -74,11 +74,11 @@ pub use spatial_split::CandidateClipping;
 pub use statistics::SplitStatistics;
 
 pub use accel_bvh::{
-    self, Aabb, AccelerationStructure, AllHits, AnyHit, BuildBudget, BuildError, BuildObserver,
-    Bvh, BvhBuilder, ClosestHit, Face, Filtered, Hit, Indexed, Intersection, InvalidPrimitives,
-    LeafOrdered, LeafRule, ObjectSplit, PreparedRay, Primitive, Query, Ray, RaySegment, RefitError,
-    Reinsertion, Sphere, SurfaceAreaHeuristic, SurfacePoint, TraversalCounters,
-    TraversalStatistics, TreeStatistics, Triangle, ValidationError, accel_core, glam,
-    triangles_of_mesh,
+    self, Aabb, AccelerationStructure, AllHits, AnyHit, Archive, BuildBudget, BuildError,
+    BuildObserver, Bvh, BvhBuilder, ClosestHit, Face, Filtered, Hit, Indexed, Intersection,
+    InvalidPrimitives, LeafOrdered, LeafRule, LoadError, ObjectSplit, PreparedRay, Primitive,
+    Query, Ray, RaySegment, ReadError, RefitError, Reinsertion, Sphere, SurfaceAreaHeuristic,
+    SurfacePoint, TraversalCounters, TraversalStatistics, TreeStatistics, Triangle,
+    ValidationError, accel_core, glam, triangles_of_mesh,
 };
 pub use accel_core::Clip;

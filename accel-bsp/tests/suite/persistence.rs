@@ -1,9 +1,10 @@
 //! Saved trees come back the same, and damaged ones are refused.
 
 use accel_bsp::{
-    AccelerationStructure, BspBuilder, BspTree, InvalidPrimitives, LoadError, Primitive, Triangle,
+    AccelerationStructure, Archive, BspBuilder, BspTree, InvalidPrimitives, LoadError, Primitive,
+    Triangle,
 };
-use accel_core::testing::damage::damaged_archives;
+use accel_core::testing::archives::{check_round_trip, load_damaged};
 use accel_core::testing::{families, rays};
 
 fn scene(family: &str, count: usize) -> Vec<Triangle> {
@@ -22,14 +23,9 @@ fn a_loaded_tree_has_the_same_bytes_and_answers() {
     for family in ["soup-uniform", "nan-mixed", "one-point", "non-finite-all"] {
         let triangles = scene(family, 300);
         let tree = builder().build(&triangles).unwrap();
-        let bytes = tree.to_bytes();
-        let loaded = BspTree::from_bytes(&bytes, &triangles).unwrap();
-        assert_eq!(loaded.to_bytes(), bytes, "{family}");
-        assert_eq!(loaded.depth(), tree.depth());
-        for ray in rays::mixed(&triangles, 4, 500) {
-            assert_eq!(loaded.closest_hit(&ray), tree.closest_hit(&ray), "{ray:?}");
-            assert_eq!(loaded.all_hits(&ray), tree.all_hits(&ray), "{ray:?}");
-        }
+        let rays = rays::mixed(&triangles, 4, 500);
+        let loaded = check_round_trip(&tree, &triangles, &rays);
+        assert_eq!(loaded.depth(), tree.depth(), "{family}");
     }
 }
 
@@ -37,12 +33,12 @@ fn a_loaded_tree_has_the_same_bytes_and_answers() {
 fn marked_leaves_are_saved_too() {
     let triangles = scene("closed-icosphere", 300);
     let tree = BspBuilder::with_bounded_leaves().build(&triangles).unwrap();
-    let loaded = BspTree::from_bytes(&tree.to_bytes(), &triangles).unwrap();
-    assert_eq!(loaded.to_bytes(), tree.to_bytes());
     assert!(tree.shape().bounded_leaves > 0);
-    for ray in rays::mixed(&triangles, 4, 500) {
-        let hit = tree.closest_hit_unconfirmed(&ray);
-        assert_eq!(loaded.closest_hit_unconfirmed(&ray), hit, "{ray:?}");
+    let rays = rays::mixed(&triangles, 4, 500);
+    let loaded = check_round_trip(&tree, &triangles, &rays);
+    for ray in &rays {
+        let hit = tree.closest_hit_unconfirmed(ray);
+        assert_eq!(loaded.closest_hit_unconfirmed(ray), hit, "{ray:?}");
     }
 }
 
@@ -57,26 +53,19 @@ fn a_tree_of_another_scene_is_refused() {
 #[test]
 fn random_damage_is_a_typed_error_or_a_tree_that_still_answers() {
     let triangles = scene("soup-uniform", 24);
-    let bytes = builder().build(&triangles).unwrap().to_bytes();
+    let tree = builder().build(&triangles).unwrap();
     let rays = rays::mixed(&triangles, 4, 4);
-    let (mut refused, mut loaded) = (0, 0);
-    for damaged in damaged_archives(&bytes, 100_000) {
-        match BspTree::from_bytes(&damaged, &triangles) {
-            Err(_) => refused += 1,
-            Ok(tree) => {
-                loaded += 1;
-                let bounds = tree.bounds().expect("no primitive is lost");
-                let mut boxes = triangles.iter().map(Triangle::bounds);
-                assert!(
-                    boxes.all(|triangle| bounds.contains(&triangle)),
-                    "{bounds:?}"
-                );
-                for ray in &rays {
-                    tree.closest_hit(ray);
-                    tree.all_hits(ray);
-                }
-            }
+    let [refused, loaded] = load_damaged(&tree, &triangles, 100_000, |tree| {
+        let bounds = tree.bounds().expect("no primitive is lost");
+        let mut boxes = triangles.iter().map(Triangle::bounds);
+        assert!(
+            boxes.all(|triangle| bounds.contains(&triangle)),
+            "{bounds:?}"
+        );
+        for ray in &rays {
+            tree.closest_hit(ray);
+            tree.all_hits(ray);
         }
-    }
+    });
     assert!(refused > 25_000 && loaded > 0, "{refused} {loaded}");
 }

@@ -1,10 +1,10 @@
 //! Saved trees come back the same, and damaged ones are refused.
 
 use accel_bvh::{
-    AccelerationStructure, Bvh, BvhBuilder, InvalidPrimitives, LeafRule, LoadError, Sphere,
-    TraversalCounters, Triangle,
+    AccelerationStructure, Archive, Bvh, BvhBuilder, InvalidPrimitives, LeafRule, LoadError,
+    Sphere, TraversalCounters, Triangle,
 };
-use accel_core::testing::damage::damaged_archives;
+use accel_core::testing::archives::{check_round_trip, load_damaged};
 use accel_core::testing::{families, rays};
 
 fn scene(family: &str, count: usize) -> Vec<Triangle> {
@@ -23,16 +23,10 @@ fn a_loaded_tree_has_the_same_bytes_and_answers() {
     for family in ["soup-uniform", "nan-mixed", "one-point", "non-finite-all"] {
         let triangles = scene(family, 500);
         let bvh = builder().build(&triangles).unwrap();
-        let bytes = bvh.to_bytes();
-        let loaded = Bvh::from_bytes(&bytes, &triangles).unwrap();
-        assert!(loaded.to_bytes() == bytes, "{family}");
-        assert_eq!(loaded.node_words(), bvh.node_words());
+        let rays = rays::mixed(&triangles, 4, 500);
+        let loaded = check_round_trip(&bvh, &triangles, &rays);
+        assert_eq!(loaded.node_words(), bvh.node_words(), "{family}");
         assert_eq!(loaded.depth(), bvh.depth());
-        assert_eq!(loaded.skipped_count(), bvh.skipped_count());
-        for ray in rays::mixed(&triangles, 4, 500) {
-            assert_eq!(loaded.closest_hit(&ray), bvh.closest_hit(&ray), "{ray:?}");
-            assert_eq!(loaded.all_hits(&ray), bvh.all_hits(&ray), "{ray:?}");
-        }
     }
 }
 
@@ -65,19 +59,12 @@ fn random_damage_is_a_typed_error_or_a_tree_with_the_same_hits() {
     let bvh = builder.build(&triangles).unwrap();
     let rays = rays::mixed(&triangles, 4, 4);
     let hits: Vec<_> = rays.iter().map(|ray| bvh.closest_hit(ray)).collect();
-    let (mut refused, mut loaded) = (0, 0);
-    for damaged in damaged_archives(&bvh.to_bytes(), 100_000) {
-        match Bvh::from_bytes(&damaged, &triangles) {
-            Err(_) => refused += 1,
-            Ok(tree) => {
-                loaded += 1;
-                let mut counters = TraversalCounters::default();
-                for (ray, hit) in rays.iter().zip(&hits) {
-                    assert_eq!(tree.closest_hit_with(ray, &mut counters), *hit);
-                }
-                assert!(counters.nodes.max as usize <= tree.node_words().len());
-            }
+    let [refused, loaded] = load_damaged(&bvh, &triangles, 100_000, |tree| {
+        let mut counters = TraversalCounters::default();
+        for (ray, hit) in rays.iter().zip(&hits) {
+            assert_eq!(tree.closest_hit_with(ray, &mut counters), *hit);
         }
-    }
+        assert!(counters.nodes.max as usize <= tree.node_words().len());
+    });
     assert!(refused > 50_000 && loaded > 1_000, "{refused} {loaded}");
 }

@@ -8,12 +8,16 @@
 
 mod frame;
 mod leaves;
+mod met_once;
+mod saved;
 mod scene;
 
 use crate::error::ValidationError;
 
 pub use frame::{ArchiveReader, ArchiveWriter};
 pub use leaves::LeafLoader;
+pub use met_once::MetOnce;
+pub use saved::{Archive, ReadError};
 pub use scene::{bounds_of_scene, scene_of_slice, scene_of_structure};
 
 /// Why an archive was not loaded.

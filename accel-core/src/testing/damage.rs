@@ -8,7 +8,7 @@ use crate::archive::checksum;
 /// Copies of an archive with one to three bits changed, or a whole word. Three of
 /// four are signed again, so that their damage passes the checksum and meets the
 /// checks behind it.
-pub fn damaged_archives(archive: &[u8], count: usize) -> impl Iterator<Item = Vec<u8>> {
+pub(super) fn damaged_archives(archive: &[u8], count: usize) -> impl Iterator<Item = Vec<u8>> {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let content = archive.len() - size_of::<u64>();
     (0..count).map(move |round| {

@@ -2,9 +2,10 @@
 //! the answers of brute force.
 
 pub mod agreement;
+pub mod archives;
 mod bench_arguments;
 pub mod closed;
-pub mod damage;
+mod damage;
 mod edge;
 pub mod families;
 pub mod family_check;

@@ -1,11 +1,11 @@
 //! Saved trees of every kind come back the same, and damaged ones are refused.
 
-use accel_core::testing::damage::damaged_archives;
+use accel_core::testing::archives::{check_round_trip, load_damaged};
 use accel_core::testing::{families, rays};
 use accel_dualsplit::{
-    AccelerationStructure, Bih, BihConverter, Bvh, BvhBuilder, DualSplitConverter, DualSplitTree,
-    HTree, HTreeConverter, InvalidPrimitives, LeafRule, LoadError, NodeSet, Partitioning,
-    PlaneTree, PlaneTreeLoadError, RaySegment, Sphere, TraversalCounters, Triangle,
+    AccelerationStructure, Archive, Bih, BihConverter, Bvh, BvhBuilder, DualSplitConverter,
+    DualSplitTree, HTree, HTreeConverter, InvalidPrimitives, LeafRule, LoadError, NodeSet,
+    Partitioning, PlaneTree, PlaneTreeLoadError, RaySegment, Sphere, TraversalCounters, Triangle,
 };
 
 fn scene(family: &str, count: usize) -> Vec<Triangle> {
@@ -29,20 +29,10 @@ fn identical(bvh: &Bvh<Triangle>) -> DualSplitTree<Triangle> {
     converter.convert(bvh).unwrap()
 }
 
-fn check_round_trip<N: NodeSet>(
-    tree: &PlaneTree<Triangle, N>,
-    triangles: &[Triangle],
-    rays: &[RaySegment],
-) {
-    let bytes = tree.to_bytes();
-    let loaded = PlaneTree::<Triangle, N>::from_bytes(&bytes, triangles).unwrap();
-    assert!(loaded.to_bytes() == bytes);
+fn check<N: NodeSet>(tree: &PlaneTree<Triangle, N>, triangles: &[Triangle], rays: &[RaySegment]) {
+    let loaded = check_round_trip(tree, triangles, rays);
     assert_eq!(loaded.node_words(), tree.node_words());
     assert_eq!(loaded.depth(), tree.depth());
-    for ray in rays {
-        assert_eq!(loaded.closest_hit(ray), tree.closest_hit(ray), "{ray:?}");
-        assert_eq!(loaded.all_hits(ray), tree.all_hits(ray), "{ray:?}");
-    }
 }
 
 #[test]
@@ -51,13 +41,13 @@ fn loaded_trees_have_the_same_bytes_and_answers() {
         let triangles = scene(family, 400);
         let rays = rays::mixed(&triangles, 4, 300);
         let bvh = source(&triangles);
-        check_round_trip(&identical(&bvh), &triangles, &rays);
+        check(&identical(&bvh), &triangles, &rays);
         let similar = DualSplitConverter::default().convert(&bvh).unwrap();
-        check_round_trip(&similar, &triangles, &rays);
+        check(&similar, &triangles, &rays);
         let bih = BihConverter::default().convert(&bvh).unwrap();
-        check_round_trip(&bih, &triangles, &rays);
+        check(&bih, &triangles, &rays);
         let h_tree = HTreeConverter::default().convert(&bvh).unwrap();
-        check_round_trip(&h_tree, &triangles, &rays);
+        check(&h_tree, &triangles, &rays);
     }
 }
 
@@ -92,20 +82,13 @@ fn a_tree_of_another_scene_or_another_kind_is_refused() {
 fn check_damage<N: NodeSet>(tree: &PlaneTree<Triangle, N>, triangles: &[Triangle], count: usize) {
     let rays = rays::mixed(triangles, 4, 4);
     let hits: Vec<_> = rays.iter().map(|ray| tree.closest_hit(ray)).collect();
-    let (mut refused, mut loaded) = (0, 0);
-    for damaged in damaged_archives(&tree.to_bytes(), count) {
-        match PlaneTree::<Triangle, N>::from_bytes(&damaged, triangles) {
-            Err(_) => refused += 1,
-            Ok(tree) => {
-                loaded += 1;
-                let mut counters = TraversalCounters::default();
-                for (ray, hit) in rays.iter().zip(&hits) {
-                    assert_eq!(tree.closest_hit_with(ray, &mut counters), *hit);
-                }
-                assert!(counters.nodes.max as usize <= tree.node_words().len());
-            }
+    let [refused, loaded] = load_damaged(tree, triangles, count, |tree| {
+        let mut counters = TraversalCounters::default();
+        for (ray, hit) in rays.iter().zip(&hits) {
+            assert_eq!(tree.closest_hit_with(ray, &mut counters), *hit);
         }
-    }
+        assert!(counters.nodes.max as usize <= tree.node_words().len());
+    });
     assert!(refused > count / 2 && loaded > 0, "{refused} {loaded}");
 }
 

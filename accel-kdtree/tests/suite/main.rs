@@ -5,4 +5,5 @@ mod agreement;
 mod determinism;
 mod limits;
 mod packets;
+mod persistence;
 mod stress;
