@@ -31,7 +31,8 @@ pub(super) static ROWS: &[Row] = &[
         name: "bsp-tri",
         is_headline: false,
         about: "BSP tree whose leaves of one triangle test its plane before the triangle",
-        settings: "as bsp, C_i 4, planar leaves; every hit confirmed by the kernel",
+        settings: "as bsp, C_i 4, no alpha, planes tangent to others by 2 for each edge, planar \
+                   leaves; every hit confirmed by the kernel",
         heuristic: tri_heuristic,
         build: |triangles, invalid, observer| {
             let builder = BspBuilder::with_planar_leaves();

@@ -26,6 +26,7 @@ use crate::verification::Expected;
 use frames::{Frame, Frames};
 use methods::{Built, Method, Way};
 use speeds::Speeds;
+use tuning::BspTuning;
 
 /// Where the published figures stand.
 pub const SOURCE: &str = "Ize, Wald and Parker 2008, Tables 1 to 3";
@@ -136,7 +137,7 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
     let kd_trees: Vec<String> = tried
         .map(|((cost, bonus), speed)| format!("{cost:.0}/{bonus} {speed:.3}"))
         .collect();
-    let untuned = BspBuilder::with_planar_leaves().costs;
+    let untuned = BspTuning::of(&BspBuilder::with_planar_leaves());
     let bsp_tri = &built.tuned_bsp_tri;
     let tried = bsp_tri.tried.iter();
     let bsp_trees: Vec<String> = tried
@@ -156,12 +157,9 @@ fn notes(built: &Built, frames: &Frames, settings: &Settings) -> Vec<String> {
         format!(
             "The kd-tree is swept, with K_T {traversal_cost:.0} for a K_I of 20 and an empty-space bonus \
              of {empty_bonus}: the fastest on the camera's rays of K_T/bonus (Mrays/s) {}. BSP-tri tuned \
-             has C_i/C_BSP/alpha/tangents {} instead of {}/{}/{}/0: the fastest of {}.",
+             has C_i/C_BSP/alpha/tangents {} instead of {untuned}: the fastest of {}.",
             kd_trees.join(", "),
             bsp_tri.setting,
-            untuned.intersection,
-            untuned.general,
-            untuned.alpha.unwrap_or_default(),
             bsp_trees.join(", ")
         ),
         "BSP-tri confirms every hit with the kernel: it counts a traversal-based test where a leaf's \

@@ -34,8 +34,8 @@ pub(super) struct BspTuning {
     tangents: usize,
 }
 
-/// With the paper's costs of nodes, and with those that are measured here, which curved
-/// surfaces gain by, if planes are tangent to many triangles.
+/// With the paper's costs and planes, and with those that curved surfaces gain by: C_BSP
+/// as it is measured here, and planes tangent to many triangles.
 fn of_bsp_trees() -> [BspTuning; 6] {
     let of_the_paper = |intersection| BspTuning {
         costs: BspCosts {
@@ -44,7 +44,7 @@ fn of_bsp_trees() -> [BspTuning; 6] {
         },
         tangents: 0,
     };
-    let measured = |intersection| BspTuning {
+    let of_curves = |intersection| BspTuning {
         costs: BspCosts {
             intersection,
             general: 1.1,
@@ -56,11 +56,21 @@ fn of_bsp_trees() -> [BspTuning; 6] {
     [
         of_the_paper(0.5),
         of_the_paper(1.0),
-        of_the_paper(2.0),
         of_the_paper(4.0),
-        measured(0.5),
-        measured(1.0),
+        of_curves(0.5),
+        of_curves(1.0),
+        of_curves(2.0),
     ]
+}
+
+impl BspTuning {
+    /// That of a builder.
+    pub(super) fn of(builder: &BspBuilder) -> Self {
+        Self {
+            costs: builder.costs,
+            tangents: builder.candidate_planes.tangents,
+        }
+    }
 }
 
 impl fmt::Display for BspTuning {
