@@ -192,7 +192,8 @@ pub(super) enum Paper {
     Sbvh,
     /// Lin, Shkurko, Mallett and Yuksel 2019: Tables 1 to 3 and Figure 10
     DualSplit,
-    /// Ize, Wald and Parker 2008: Tables 1 to 3, Figure 3, the sweep of C_i, a hot spot
+    /// Ize, Wald and Parker 2008: Tables 1 to 3, Figure 3, sweeps of C_i and epsilon, a hot
+    /// spot, transparent rays
     Bsp,
 }
 

@@ -37,14 +37,17 @@ const COSTS: Sweep = Sweep {
     name: "C_i",
     most_triangles: 100_000,
     caption: "C_i, the cost of testing a triangle (section 5.1): BSP-tri, ray cast",
-    values: &[1.0, 2.0, 4.0, 16.0],
-    default: 2,
-    builder: |intersection| BspBuilder {
-        costs: BspCosts {
-            intersection,
-            ..BspCosts::default()
-        },
-        ..BspBuilder::with_planar_leaves()
+    values: &[0.5, 1.0, 2.0, 4.0, 16.0],
+    default: 3,
+    builder: |intersection| {
+        let bsp_tri = BspBuilder::with_planar_leaves();
+        BspBuilder {
+            costs: BspCosts {
+                intersection,
+                ..bsp_tri.costs
+            },
+            ..bsp_tri
+        }
     },
     label: |cost| format!("{cost}"),
     chart_title: "Triangle tests and nodes per ray against C_i (section 5.1)",
