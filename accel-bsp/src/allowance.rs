@@ -3,7 +3,11 @@
 
 use accel_core::build::share_by_size;
 
+use accel_core::Polygonal;
+
 use crate::BspBuilder;
+use crate::builder::BYTES_PER_PIECE;
+use crate::layout::BYTES_PER_NODE;
 use crate::node::MAX_INDEX;
 
 /// What a subtree may use, its root included.
@@ -18,11 +22,18 @@ pub(crate) struct Allowance {
 }
 
 impl Allowance {
-    /// Of a whole tree whose splits may add so many references.
-    pub(crate) fn new(builder: &BspBuilder, primitives: usize, duplicates: usize) -> Self {
+    /// Of a whole tree. Pieces are gone when the tree is packed, so that what they took is
+    /// left to nodes.
+    pub(crate) fn new<P: Polygonal>(builder: &BspBuilder, primitives: usize) -> Self {
+        let bytes = builder.budget.max_bytes;
+        let references = bytes.map_or(usize::MAX, |bytes| bytes / builder.working_bytes::<P>(1));
+        let within_bytes = references.saturating_mul(BYTES_PER_PIECE) / BYTES_PER_NODE;
+        let by_setting = (builder.max_duplication * primitives as f64) as usize;
         Self {
-            duplicates,
-            nodes: builder.max_nodes.unwrap_or(MAX_INDEX).min(MAX_INDEX),
+            duplicates: by_setting.min(references - primitives),
+            nodes: (builder.max_nodes.unwrap_or(MAX_INDEX))
+                .min(MAX_INDEX)
+                .min(within_bytes),
             candidates: builder.max_candidates.saturating_mul(primitives),
         }
     }

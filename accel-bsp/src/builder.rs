@@ -8,6 +8,7 @@ use crate::BspTree;
 use crate::allowance::Allowance;
 use crate::candidates::CandidatePlanes;
 use crate::cost::BspCosts;
+use crate::layout::bytes_per_reference;
 use crate::pieces::Pieces;
 use crate::polytope::{Polytope, Reach};
 use crate::search::Search;
@@ -37,8 +38,7 @@ pub struct BspBuilder {
     pub sampled_primitives: Option<usize>,
     /// How many references all splits together may add, for each primitive;
     /// shared out from the root down. A limit, rarely met: a scan needs about 3,
-    /// but corners where many primitives meet need a large share. A limit on bytes
-    /// lowers it. Finite and at least 0.
+    /// but corners where many primitives meet need a large share. Finite and at least 0.
     pub max_duplication: f64,
     /// How many nodes the tree may have, at least 1; nodes without a share of them
     /// become leaves. `None` for as many as indices can tell apart.
@@ -50,7 +50,9 @@ pub struct BspBuilder {
     pub max_candidates: usize,
     /// Whether primitives without finite bounds are refused or left out.
     pub invalid_primitives: InvalidPrimitives,
-    /// Limits on memory and depth.
+    /// Limits on memory and depth. The limit on bytes bounds references and nodes, too:
+    /// splits that would add more are not made. Only where not even the primitives
+    /// themselves fit, the build is refused.
     pub budget: BuildBudget,
 }
 
@@ -105,11 +107,11 @@ impl BspBuilder {
         }
     }
 
-    /// BSP-tri, every hit confirmed by the kernel (section 4.3). Takes two to four times
+    /// BSP-tri, every hit confirmed by the kernel (section 4.3). Takes two to five times
     /// as long to build as the default.
     ///
-    /// C_i is 4 here instead of 1, so that nearly all leaves hold one triangle, as in the
-    /// paper's Table 3; planes tangent to several triangles are tried, too (section 6.1);
+    /// C_i is 4 here instead of 1, so that nearly all leaves of a mesh hold one triangle, as
+    /// in the paper's Table 3; planes tangent to several triangles are tried, too (section 6.1);
     /// and C_BSP is fixed. The paper has it grow with the triangles, so that a greedy
     /// search does not divide many of them by planes that are slow to traverse. Here such
     /// planes are hardly slower than others, and are only tried where others gain little.
@@ -165,7 +167,8 @@ impl BspBuilder {
         observer: &dyn BuildObserver,
     ) -> Result<BspTree<P>, BuildError> {
         self.validate()?;
-        let duplicates = self.duplicates_within_budget(primitives.len())?;
+        self.budget
+            .check_bytes(self.working_bytes::<P>(primitives.len()))?;
         let gathered = gather(primitives, self.invalid_primitives)?;
         let (bounds, skipped) = (gathered.bounds, gathered.skipped);
         if gathered.references.is_empty() {
@@ -180,7 +183,7 @@ impl BspBuilder {
         let task = Task {
             pieces: Pieces::new(primitives, &gathered.references),
             cell: Polytope::of_box(&bounds),
-            allowance: Allowance::new(self, count, duplicates),
+            allowance: Allowance::new::<P>(self, count),
         };
         drop(gathered.references);
         let tree = build_top_down(&strategy, task, 0, observer)?;
@@ -232,22 +235,16 @@ impl BspBuilder {
         }
     }
 
-    /// Bytes that pieces and nodes take at most, about, while a tree of this many
-    /// references in leaves is built.
-    pub fn working_bytes(&self, references: usize) -> usize {
-        const BYTES_PER_PIECE: usize = 256;
-        references.saturating_mul(BYTES_PER_PIECE)
-    }
-
-    /// How many references splits may add over this many primitives.
-    fn duplicates_within_budget(&self, primitives: usize) -> Result<usize, BuildError> {
-        self.budget.check_bytes(self.working_bytes(primitives))?;
-        let within_bytes = (self.budget.max_bytes).map_or(usize::MAX, |bytes| {
-            bytes / self.working_bytes(1) - primitives
-        });
-        Ok(within_bytes.min((self.max_duplication * primitives as f64) as usize))
+    /// Bytes that a build of this many references in leaves takes at most, about, the
+    /// copies of primitives in the tree included.
+    pub fn working_bytes<P: Polygonal>(&self, references: usize) -> usize {
+        references.saturating_mul(BYTES_PER_PIECE + bytes_per_reference::<P>())
     }
 }
+
+/// Bytes that a piece takes while nodes are divided, what is divided and what has been
+/// included.
+pub(crate) const BYTES_PER_PIECE: usize = 384;
 
 /// A node to be divided.
 struct Task {

@@ -15,6 +15,15 @@ use crate::shared_slacks::{SharedSlacks, SlackCounts};
 use crate::split_plane::SplitPlane;
 use crate::{BspBuilder, BspTree, SingleLeaves};
 
+/// Bytes that a node takes at most while a tree is packed, its plane included.
+pub(crate) const BYTES_PER_NODE: usize =
+    BuildTree::<SplitPlane>::BYTES_PER_NODE + NODE_BYTES + PLANE_BYTES + KnownPlanes::BYTES_EACH;
+
+/// Bytes that a reference takes while a tree is packed, its copy of the primitive included.
+pub(crate) const fn bytes_per_reference<P>() -> usize {
+    size_of::<P>() + 3 * size_of::<u32>()
+}
+
 impl<P: Primitive> BspTree<P> {
     /// The tree over nothing that can be hit.
     pub(crate) fn empty(primitives: &[P], skipped: usize) -> Self {
@@ -47,14 +56,14 @@ impl<P: Polygonal> BspTree<P> {
                 limit: MAX_INDEX,
             });
         }
-        let storage = references * (size_of::<P>() + 2 * size_of::<u32>());
         let (of_nodes, slacks) = survey(tree);
         let of_leaves = match builder.single_leaves {
             SingleLeaves::Planar => leaves.min(primitives.len()),
             _ => 0,
         };
         let planes = (of_nodes + of_leaves) * (PLANE_BYTES + KnownPlanes::BYTES_EACH);
-        let bytes = tree.bytes() + (inner + leaves) * NODE_BYTES + planes + storage;
+        let nodes = (inner + leaves) * (BuildTree::<SplitPlane>::BYTES_PER_NODE + NODE_BYTES);
+        let bytes = nodes + planes + references * bytes_per_reference::<P>();
         builder.budget.check_bytes(bytes)?;
         let mut packed = Self {
             nodes: Nodes::new(slacks, inner + leaves),

@@ -7,8 +7,8 @@
 //! ```
 
 use accel_core::archive::{
-    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, check_limit,
-    scene_of_slice, scene_of_structure,
+    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_hits,
+    check_limit, scene_of_slice, scene_of_structure,
 };
 use accel_core::glam::{Vec3, Vec4};
 use accel_core::layout::LeafStorage;
@@ -22,9 +22,6 @@ use crate::shared_slacks::SharedSlacks;
 const KIND: [u8; 8] = *b"accelbsp";
 const VERSION: u32 = 3;
 
-/// What loads takes bounded time and memory to query. Damage is found by the checksum;
-/// whoever forges that too can move planes so that a tree loses hits.
-///
 /// ```
 /// use accel_bsp::{Archive, BspBuilder, BspTree, Triangle};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -73,7 +70,6 @@ impl<P: Polygonal> Archive for BspTree<P> {
         let mut archive = ArchiveReader::new(bytes, KIND, VERSION, scene)?;
         let leaves = LeafLoader::new(primitives, &mut archive)?;
         let bounds = archive.bounds()?;
-        check_bounds(&bounds, primitives)?;
         let slacks = SharedSlacks {
             small: slack(&mut archive)?,
             large: slack(&mut archive)?,
@@ -82,6 +78,7 @@ impl<P: Polygonal> Archive for BspTree<P> {
         let planes = (0..plane_count).map(|_| read_plane(&mut archive));
         let planes = planes.collect::<Result<_, _>>()?;
         let node_count = archive.count(2)?;
+        check_bounds(&bounds, primitives, node_count)?;
         let nodes = (0..node_count).map(|_| read_node(&mut archive));
         let nodes = nodes.collect::<Result<_, _>>()?;
         let mut loading = Loading {
@@ -124,7 +121,7 @@ impl<P: Polygonal> Loading<'_, P> {
                 let (number, count) = (node.plane_number(), self.nodes.planes().len());
                 check_limit("number of a plane", u64::from(number) + 1, count as u64)?;
             } else if !node.is_leaf() && !node.position().is_finite() {
-                return out_of_range("a plane that is not finite at node", index as u64, 0);
+                return meaningless("a plane that is not finite at node", index as u64);
             }
             let children = node.children().into_iter().rev().flatten();
             pending.extend(children.map(|child| (child as usize, depth + 1)));
@@ -148,17 +145,21 @@ fn read_plane(archive: &mut ArchiveReader<'_>) -> Result<Vec4, LoadError> {
     Ok(Vec4::new(number()?, number()?, number()?, number()?))
 }
 
-/// The box of a tree must hold all that can be hit.
-fn check_bounds<P: Polygonal>(bounds: &Aabb, primitives: &[P]) -> Result<(), LoadError> {
-    let boxes = primitives.iter().map(P::bounds);
-    let is_outside = |primitive: Aabb| primitive.is_valid() && !bounds.contains(&primitive);
-    match boxes.into_iter().position(is_outside) {
-        Some(id) => {
-            let (node, id) = (0, id as u32);
-            Err(ValidationError::PrimitiveNotEnclosed { node, id }.into())
-        }
-        None => Ok(()),
+/// The box of a tree must hold all that can be hit, and there must be something.
+fn check_bounds<P: Polygonal>(
+    bounds: &Aabb,
+    primitives: &[P],
+    node_count: usize,
+) -> Result<(), LoadError> {
+    let of_hits = bounds_of_hits(primitives);
+    if of_hits.is_empty() {
+        return check_limit("nodes over nothing:", node_count as u64, 0);
     }
+    if bounds.contains(&of_hits) {
+        return Ok(());
+    }
+    let node = 0;
+    Err(ValidationError::NotEnclosed { node }.into())
 }
 
 fn slack(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
@@ -166,7 +167,7 @@ fn slack(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
     if slack.is_sign_positive() {
         return Ok(slack);
     }
-    out_of_range("the bits of a negative slack", slack.to_bits().into(), 0)
+    meaningless("a slack of negative bits", slack.to_bits().into())
 }
 
 fn finite(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
@@ -175,15 +176,11 @@ fn finite(archive: &mut ArchiveReader<'_>) -> Result<f32, LoadError> {
     if number.is_finite() {
         return Ok(number);
     }
-    out_of_range(
-        "the bits of a number that is not finite",
-        word.into(),
-        f32::MAX.to_bits().into(),
-    )
+    meaningless("a number of bits that are not finite", word.into())
 }
 
-fn out_of_range<T>(what: &'static str, value: u64, limit: u64) -> Result<T, LoadError> {
-    Err(LoadError::OutOfRange { what, value, limit })
+fn meaningless<T>(what: &'static str, value: u64) -> Result<T, LoadError> {
+    Err(LoadError::Meaningless { what, value })
 }
 
 /// What a primitive's planes depend on.

@@ -154,7 +154,17 @@ impl Pieces {
                 }
             }
         }
+        parts.iter_mut().for_each(Self::shrink_to_fit);
         parts
+    }
+
+    /// Gives back what was kept ready in vain: many wait to be divided.
+    fn shrink_to_fit(&mut self) {
+        self.ids.shrink_to_fit();
+        self.pads.shrink_to_fit();
+        self.are_polygons.shrink_to_fit();
+        self.starts.shrink_to_fit();
+        self.corners.shrink_to_fit();
     }
 
     fn copy(&mut self, from: &Self, piece: usize) {
@@ -205,4 +215,32 @@ pub(crate) fn bounds_of(points: &[DVec3]) -> [DVec3; 2] {
     let unbounded = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let grow = |[low, high]: [DVec3; 2], &point: &DVec3| [low.min(point), high.max(point)];
     points.iter().fold(unbounded, grow)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel_core::Triangle;
+    use accel_core::geometry::Axis;
+
+    #[test]
+    fn parts_take_no_more_than_they_hold() {
+        let triangle = |x: f32| Triangle::new([x, 0.0, 0.0], [x, 1.0, 0.0], [x, 0.0, 1.0]);
+        let triangles: Vec<Triangle> = (0..100).map(|x| triangle(x as f32)).collect();
+        let references: Vec<Reference> = (0..)
+            .zip(&triangles)
+            .map(|(id, triangle)| Reference {
+                bounds: accel_core::Primitive::bounds(triangle),
+                id,
+            })
+            .collect();
+        let pieces = Pieces::new(&triangles, &references);
+        let plane = SplitPlane::axis_aligned(Axis::X, 0.5, 1e-3);
+        let parts = pieces.divide(&plane, false);
+        assert_eq!(parts.each_ref().map(Pieces::len), [1, 99]);
+        for part in parts {
+            assert!(part.ids.capacity() <= part.len() + 4, "{part:?}");
+            assert!(part.corners.capacity() <= 3 * part.len() + 4, "{part:?}");
+        }
+    }
 }

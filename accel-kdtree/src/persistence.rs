@@ -8,8 +8,8 @@
 //! The root's cell and the slack follow from the primitives.
 
 use accel_core::archive::{
-    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_scene,
-    check_limit, scene_of_slice, scene_of_structure,
+    Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_hits,
+    bounds_of_scene, check_limit, scene_of_slice, scene_of_structure,
 };
 use accel_core::layout::{LeafStorage, StoredPrimitives};
 use accel_core::{Aabb, AccelerationStructure, Clip};
@@ -21,8 +21,7 @@ use crate::part::Slack;
 const KIND: [u8; 8] = *b"accelkdt";
 const VERSION: u32 = 1;
 
-/// Damage is found by the checksum. Of whatever carries a right one, the tree must pass
-/// [`validate`](KdTree::validate).
+/// What loads can be checked further by [`validate`](KdTree::validate).
 ///
 /// ```
 /// use accel_kdtree::{Archive, KdTree, KdTreeBuilder, Triangle};
@@ -66,8 +65,11 @@ impl<P: Clip> Archive for KdTree<P> {
         let count = archive.count(2)?;
         let nodes = (0..count).map(|_| read_node(&mut archive));
         let nodes = nodes.collect::<Result<Vec<Node>, LoadError>>()?;
-        let bounds = || primitives.iter().map(P::bounds).filter(Aabb::is_valid);
-        let cell = bounds().fold(Aabb::EMPTY, |all, bounds| all.union(&bounds));
+        let cell = bounds_of_hits(primitives);
+        if cell.is_empty() {
+            check_limit("nodes over nothing:", count as u64, 0)?;
+        }
+        let boxes = primitives.iter().map(P::bounds).filter(Aabb::is_valid);
         let mut loading = Loading {
             archive,
             leaves,
@@ -75,16 +77,16 @@ impl<P: Clip> Archive for KdTree<P> {
                 nodes,
                 stored: StoredPrimitives::new(&[], 0, 0),
                 bounds: (count > 0).then_some(cell),
-                slack: Slack::of(bounds()),
+                slack: Slack::of(boxes),
                 depth: 0,
             },
         };
         loading.read_leaves()?;
         loading.archive.finish()?;
-        let mut tree = loading.tree;
-        tree.stored = loading.leaves.finish()?;
-        tree.validate()?;
-        Ok(tree)
+        Ok(Self {
+            stored: loading.leaves.finish()?,
+            ..loading.tree
+        })
     }
 }
 
@@ -121,9 +123,8 @@ impl<P: Clip> Loading<'_, P> {
 
 fn read_node(archive: &mut ArchiveReader<'_>) -> Result<Node, LoadError> {
     let words = [archive.word()?, archive.word()?];
-    Node::from_words(words).ok_or(LoadError::OutOfRange {
-        what: "a node of no axis or no finite plane, of the words",
+    Node::from_words(words).ok_or(LoadError::Meaningless {
+        what: "a node of no axis or no finite plane, in the words",
         value: u64::from(words[0]) | u64::from(words[1]) << 32,
-        limit: 0,
     })
 }

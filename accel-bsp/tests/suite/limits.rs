@@ -142,14 +142,6 @@ fn budgets_bound_bytes_depth_and_references() {
         BuildError::BudgetExceeded { limit: 1000, .. }
     ));
     assert_eq!(budget(None, 5).build(&triangles).unwrap().depth(), 5);
-    // Bytes for half as many references again make a tree of no more.
-    for references in [2000, 3000] {
-        let bytes = BspBuilder::default().working_bytes(references);
-        let tree = budget(Some(bytes), 120).build(&triangles).unwrap();
-        let held = tree.outline().ids.len();
-        assert!((2000..=references).contains(&held), "{held}");
-        assert!(agrees(&tree, &triangles), "{references}");
-    }
     for max_duplication in [0.0, 0.5, 2.0] {
         let builder = BspBuilder {
             max_duplication,
@@ -159,6 +151,48 @@ fn budgets_bound_bytes_depth_and_references() {
         let references = tree.outline().ids.len();
         let limit = 2000 + (2000.0 * max_duplication) as usize;
         assert!((2000..=limit).contains(&references), "{references}");
+    }
+}
+
+/// A build that begins ends: what does not fit is not split.
+#[test]
+fn a_limit_on_bytes_makes_larger_leaves_and_is_an_error_where_nothing_fits() {
+    let builders = [
+        BspBuilder::default(),
+        BspBuilder::original(),
+        BspBuilder::with_planar_leaves(),
+        BspBuilder::with_bounded_leaves(),
+    ];
+    for family in [
+        "points",
+        "sheet-rotated-45",
+        "staircase",
+        "closed-torus",
+        "soup-mixed-sizes",
+    ] {
+        let triangles = families::find(family).expect(family).scene(5, 600);
+        for builder in builders {
+            let with = |references: usize| {
+                let bytes = builder.working_bytes::<Triangle>(references);
+                let budget = BuildBudget {
+                    max_bytes: Some(bytes),
+                    ..builder.budget
+                };
+                BspBuilder { budget, ..builder }.build(&triangles)
+            };
+            let count = triangles.len();
+            for references in [count, count + 60, 2 * count] {
+                let tree = with(references).unwrap();
+                let held = tree.outline().ids.len();
+                assert!((count..=references).contains(&held), "{family} {held}");
+                assert!(agrees(&tree, &triangles), "{family} {references}");
+            }
+            let error = with(count - 1).unwrap_err();
+            assert!(
+                matches!(error, BuildError::BudgetExceeded { .. }),
+                "{error}"
+            );
+        }
     }
 }
 

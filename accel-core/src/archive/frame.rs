@@ -144,7 +144,7 @@ impl<'a> ArchiveReader<'a> {
     /// The next six words: a box, valid or empty.
     ///
     /// # Errors
-    /// [`LoadError::OutOfRange`] for any other box, [`LoadError::WrongLength`] at
+    /// [`LoadError::Meaningless`] for any other box, [`LoadError::WrongLength`] at
     /// the end.
     pub fn bounds(&mut self) -> Result<Aabb, LoadError> {
         let mut corner = || -> Result<Vec3, LoadError> {
@@ -155,10 +155,9 @@ impl<'a> ArchiveReader<'a> {
         if bounds.is_valid() || bounds == Aabb::EMPTY {
             Ok(bounds)
         } else {
-            Err(LoadError::OutOfRange {
-                what: "boxes that are not finite",
-                value: 1,
-                limit: 0,
+            Err(LoadError::Meaningless {
+                what: "a box that is not finite, with the least x of the bits",
+                value: bounds.min.x.to_bits().into(),
             })
         }
     }
@@ -222,7 +221,7 @@ mod tests {
         let bytes = writer.finish();
         let mut reader = ArchiveReader::new(&bytes, KIND, 3, 77).unwrap();
         let error = reader.bounds().unwrap_err();
-        assert!(matches!(error, LoadError::OutOfRange { .. }), "{error}");
+        assert!(matches!(error, LoadError::Meaningless { .. }), "{error}");
         let error = reader.list().unwrap_err();
         assert!(matches!(error, LoadError::WrongLength { .. }), "{error}");
     }

@@ -12,7 +12,9 @@ use crate::primitive::Primitive;
 pub struct LeafLoader<'a, P: Primitive> {
     primitives: &'a [P],
     stored: StoredPrimitives<P>,
-    is_held: Vec<bool>,
+    leaves: u32,
+    /// By primitive, how many leaves there were when it was last read; 0 for never.
+    last_leaf: Vec<u32>,
 }
 
 impl<'a, P: Primitive> LeafLoader<'a, P> {
@@ -26,34 +28,41 @@ impl<'a, P: Primitive> LeafLoader<'a, P> {
         Ok(Self {
             primitives,
             stored: StoredPrimitives::new(primitives, skipped, 0),
-            is_held: vec![false; primitives.len()],
+            leaves: 0,
+            last_leaf: vec![0; primitives.len()],
         })
     }
 
     /// Reads a leaf and returns its number.
     ///
     /// # Errors
-    /// [`LoadError::OutOfRange`] for a leaf of nothing or an id that names no
-    /// primitive with valid bounds, [`LoadError::WrongLength`] at the end.
+    /// [`LoadError::Meaningless`] for a leaf of nothing or one that holds a primitive
+    /// twice, [`LoadError::OutOfRange`] for an id that names no primitive,
+    /// [`LoadError::Unsound`] for that of one without valid bounds,
+    /// [`LoadError::WrongLength`] at the end.
     pub fn read_leaf(&mut self, archive: &mut ArchiveReader<'_>) -> Result<u32, LoadError> {
         let ids = archive.list()?;
         if ids.is_empty() {
-            return Err(LoadError::OutOfRange {
-                what: "a leaf of primitives",
-                value: 0,
-                limit: 1,
+            return Err(LoadError::Meaningless {
+                what: "a leaf of nothing, after so many others",
+                value: self.leaves.into(),
             });
         }
+        self.leaves += 1;
         for &id in &ids {
-            let primitive = self.primitives.get(id as usize);
-            if !primitive.is_some_and(|primitive| primitive.bounds().is_valid()) {
-                return Err(LoadError::OutOfRange {
-                    what: "id",
-                    value: u64::from(id),
-                    limit: self.primitives.len() as u64,
+            let count = self.primitives.len() as u64;
+            check_limit("so many primitives, by an id:", u64::from(id) + 1, count)?;
+            if !self.primitives[id as usize].bounds().is_valid() {
+                let count = 1;
+                return Err(ValidationError::ReferenceCount { id, count }.into());
+            }
+            let last = std::mem::replace(&mut self.last_leaf[id as usize], self.leaves);
+            if last == self.leaves {
+                return Err(LoadError::Meaningless {
+                    what: "a leaf that holds twice the primitive",
+                    value: id.into(),
                 });
             }
-            self.is_held[id as usize] = true;
         }
         let leaves = self.stored.leaves_mut();
         Ok(leaves.push_leaf(self.primitives, &ids))
@@ -66,16 +75,58 @@ impl<'a, P: Primitive> LeafLoader<'a, P> {
     /// [`LoadError::Unsound`] names a primitive with valid bounds that does not;
     /// [`LoadError::OutOfRange`] if the number of the others is not that of the skipped.
     pub fn finish(self) -> Result<StoredPrimitives<P>, LoadError> {
-        let mut primitives = self.primitives.iter().zip(&self.is_held);
-        let is_lost = |(primitive, is_held): (&P, &bool)| !is_held && primitive.bounds().is_valid();
+        let mut primitives = self.primitives.iter().zip(&self.last_leaf);
+        let is_lost = |(primitive, &last): (&P, &u32)| last == 0 && primitive.bounds().is_valid();
         if let Some(id) = primitives.position(is_lost) {
             let (id, count) = (id as u32, 0);
             return Err(ValidationError::ReferenceCount { id, count }.into());
         }
-        let missing = self.is_held.iter().filter(|&&is_held| !is_held).count() as u64;
+        let missing = self.last_leaf.iter().filter(|&&last| last == 0).count() as u64;
         let skipped = self.stored.skipped() as u64;
         check_limit("primitives in no leaf", missing, skipped)?;
         check_limit("skipped primitives", skipped, missing)?;
         Ok(self.stored)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Triangle;
+    use crate::archive::ArchiveWriter;
+
+    /// What comes of an archive of these leaves over a triangle and one that is skipped.
+    fn load(leaves: &[&[u32]]) -> Result<(), LoadError> {
+        let valid = Triangle::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+        let triangles = [valid, Triangle::new([f32::NAN; 3], [1.0; 3], [2.0; 3])];
+        let mut writer = ArchiveWriter::new(*b"testkind", 1, 0);
+        writer.push(1);
+        leaves
+            .iter()
+            .for_each(|ids| writer.push_list(ids.iter().copied()));
+        let bytes = writer.finish();
+        let mut archive = ArchiveReader::new(&bytes, *b"testkind", 1, 0)?;
+        let mut loader = LeafLoader::new(&triangles, &mut archive)?;
+        for _ in leaves {
+            loader.read_leaf(&mut archive)?;
+        }
+        loader.finish().map(|_| ())
+    }
+
+    #[test]
+    fn leaves_hold_every_primitive_and_none_twice() {
+        assert_eq!(load(&[&[0], &[0]]), Ok(()));
+        let lost = ValidationError::ReferenceCount { id: 0, count: 0 };
+        assert_eq!(load(&[]), Err(lost.into()));
+        let invalid = ValidationError::ReferenceCount { id: 1, count: 1 };
+        assert_eq!(load(&[&[0, 1]]), Err(invalid.into()));
+        for (leaves, part) in [
+            (&[0, 0][..], "twice the primitive: 0x0"),
+            (&[], "a leaf of nothing"),
+            (&[2], "3, but the limit is 2"),
+        ] {
+            let message = load(&[leaves]).unwrap_err().to_string();
+            assert!(message.contains(part), "{message}");
+        }
     }
 }

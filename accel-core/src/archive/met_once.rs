@@ -23,18 +23,17 @@ impl MetOnce {
     /// Meets a node at this depth, which takes these places.
     ///
     /// # Errors
-    /// [`LoadError::OutOfRange`] for a node that is too deep, reaches over the end, or
-    /// takes a place that another one has.
+    /// [`LoadError::OutOfRange`] for a node that is too deep or reaches over the end,
+    /// [`LoadError::Meaningless`] for one that takes a place that another one has.
     pub fn meet(&mut self, node: Range<usize>, depth: u32) -> Result<(), LoadError> {
         check_limit("depth", depth.into(), BuildBudget::DEEPEST.into())?;
         let end = self.is_met.len();
         check_limit("a node that ends at place", node.end as u64, end as u64)?;
         for place in node {
             if std::mem::replace(&mut self.is_met[place], true) {
-                return Err(LoadError::OutOfRange {
+                return Err(LoadError::Meaningless {
                     what: "a second node at place",
                     value: place as u64,
-                    limit: 0,
                 });
             }
         }

@@ -18,7 +18,7 @@ pub use frame::{ArchiveReader, ArchiveWriter};
 pub use leaves::LeafLoader;
 pub use met_once::MetOnce;
 pub use saved::{Archive, ReadError};
-pub use scene::{bounds_of_scene, scene_of_slice, scene_of_structure};
+pub use scene::{bounds_of_hits, bounds_of_scene, scene_of_slice, scene_of_structure};
 
 /// Why an archive was not loaded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -68,15 +68,23 @@ pub enum LoadError {
         /// Bytes that are there.
         available: usize,
     },
-    /// A word makes no sense.
+    /// A number is too large.
     #[error("the archive has {what} {value}, but the limit is {limit}")]
     OutOfRange {
-        /// What the word means.
+        /// What the number means.
         what: &'static str,
         /// Its value.
         value: u64,
-        /// The largest value, or the one expected.
+        /// The largest value.
         limit: u64,
+    },
+    /// Words have no meaning.
+    #[error("the archive has {what}: {value:#x}")]
+    Meaningless {
+        /// What is wrong.
+        what: &'static str,
+        /// The words, or the number of what they describe.
+        value: u64,
     },
     /// It holds a tree that could lose hits.
     #[error("the archive holds no sound tree: {0}")]

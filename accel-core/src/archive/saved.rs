@@ -8,8 +8,10 @@ use crate::structure::AccelerationStructure;
 
 /// A structure that can be saved, without its primitives, and loaded again.
 ///
-/// The bytes are the same on any machine. What is loaded may come from anywhere: all of
-/// it is validated.
+/// The bytes are the same on any machine, and may come from anywhere: damage is found by
+/// a checksum, and every word is validated, so that whatever loads answers each query in
+/// bounded time and memory. Whoever forges the checksum, too, can move planes or
+/// references so that a tree loses hits.
 pub trait Archive: AccelerationStructure + Sized {
     /// Why an archive is refused.
     type Error: Error + From<LoadError>;
@@ -23,13 +25,14 @@ pub trait Archive: AccelerationStructure + Sized {
     /// Names what is wrong.
     fn from_bytes(bytes: &[u8], primitives: &[Self::Primitive]) -> Result<Self, Self::Error>;
 
-    /// Writes the structure to a file, or to whatever else takes bytes. No buffer is
-    /// needed between.
+    /// Writes the structure to a file, or to whatever else takes bytes, and flushes it. No
+    /// buffer is needed between.
     ///
     /// # Errors
     /// The writer's.
     fn write_to(&self, mut writer: impl Write) -> io::Result<()> {
-        writer.write_all(&self.to_bytes())
+        writer.write_all(&self.to_bytes())?;
+        writer.flush()
     }
 
     /// Reads all that a reader gives, at most `max_bytes`: the structure that
@@ -37,7 +40,7 @@ pub trait Archive: AccelerationStructure + Sized {
     ///
     /// # Errors
     /// A [`ReadError`]: the reader's, that of an archive larger than `max_bytes`, of
-    /// which no more is kept in memory, or what [`from_bytes`](Self::from_bytes) answers.
+    /// which no more is read, or what [`from_bytes`](Self::from_bytes) answers.
     fn read_from(
         reader: impl Read,
         max_bytes: u64,

@@ -1,6 +1,7 @@
 //! By what an archive knows the primitives that it is over.
 
 use super::{FNV_START, fnv};
+use crate::geometry::Aabb;
 use crate::glam::Vec3;
 use crate::primitive::Primitive;
 use crate::structure::AccelerationStructure;
@@ -29,6 +30,13 @@ pub fn scene_of_slice<P: Primitive, I: IntoIterator<Item = Vec3>>(
 pub fn bounds_of_scene<P: Primitive>(primitive: &P) -> [Vec3; 2] {
     let bounds = primitive.bounds();
     [bounds.min, bounds.max]
+}
+
+/// The box around the gates of all primitives with valid bounds, outside which there is
+/// no hit; empty if there are none. The same as a builder's references have.
+pub fn bounds_of_hits<P: Primitive>(primitives: &[P]) -> Aabb {
+    let boxes = primitives.iter().map(P::bounds).filter(Aabb::is_valid);
+    boxes.fold(Aabb::EMPTY, |all, bounds| all.union(&bounds.gate()))
 }
 
 /// The 64-bit hash of Fowler, Noll and Vo (FNV-1a).

@@ -6,8 +6,8 @@ use crate::error::BuildError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildBudget {
     /// The most bytes that the build may hold at once, working memory included;
-    /// `None` for no limit. Over it the build ends with
-    /// [`BuildError::BudgetExceeded`].
+    /// `None` for no limit. Builders that split primitives add fewer references, to stay
+    /// within it. Over it the build ends with [`BuildError::BudgetExceeded`].
     pub max_bytes: Option<usize>,
     /// The most edges from the root to a leaf, 0 to [`Self::DEEPEST`]. Nodes at
     /// this depth become leaves, however many references they hold.

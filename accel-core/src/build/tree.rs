@@ -97,10 +97,13 @@ impl<I> BuildTree<I> {
         }
     }
 
+    /// Bytes that a node takes.
+    pub const BYTES_PER_NODE: usize = size_of::<RunNode<I>>();
+
     /// Bytes that the tree holds, forks aside.
     pub fn bytes(&self) -> usize {
         let (inner, leaves) = self.count();
-        (inner + leaves) * size_of::<RunNode<I>>() + self.references() * size_of::<u32>()
+        (inner + leaves) * Self::BYTES_PER_NODE + self.references() * size_of::<u32>()
     }
 
     /// How many references all leaves hold together.

@@ -1,6 +1,7 @@
 //! Checks of what is saved and loaded.
 
 use std::fmt::Debug;
+use std::io::{self, Write};
 
 use super::damage::damaged_archives;
 use crate::archive::{Archive, ReadError};
@@ -29,6 +30,8 @@ pub fn check_round_trip<A: Archive>(
     let loaded = A::from_bytes(&bytes, primitives).expect("it is sound");
     assert!(loaded.to_bytes() == bytes);
     assert_eq!(loaded.skipped_count(), structure.skipped_count());
+    assert_eq!(loaded.bounds(), structure.bounds());
+    assert!(structure.write_to(FullDisk).is_err());
     for ray in rays {
         let hit = structure.closest_hit(ray);
         assert_eq!(loaded.closest_hit(ray), hit, "{ray:?}");
@@ -42,6 +45,19 @@ pub fn check_round_trip<A: Archive>(
         assert!(A::from_bytes(&bytes, others).is_err());
     }
     loaded
+}
+
+/// Takes all bytes, and loses them when flushed.
+struct FullDisk;
+
+impl Write for FullDisk {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Err(io::ErrorKind::StorageFull.into())
+    }
 }
 
 /// Loads `count` damaged copies of a saved structure, and has `check` look at those that
