@@ -16,11 +16,20 @@ pub struct PreparedRay {
     origin: Vec3,
     direction: Vec3,
     reciprocal: Vec3,
-    near_reciprocal: Vec3,
-    far_reciprocal: Vec3,
     t_min: f32,
     t_max: f32,
     shear: Shear,
+    slabs: SlabLanes,
+}
+
+/// What a box test takes of a ray: the axes in lanes, and a fourth that constrains
+/// nothing. Written as whole vectors, since they are read so at once: a vector that was
+/// written in pieces has to wait until all of them are in the cache.
+#[derive(Clone, Copy, Debug)]
+struct SlabLanes {
+    origin: F32x4,
+    near_reciprocal: F32x4,
+    far_reciprocal: F32x4,
 }
 
 /// The shear that carries the ray's direction onto its main axis (Woop,
@@ -87,11 +96,14 @@ impl PreparedRay {
             origin,
             direction,
             reciprocal,
-            near_reciprocal: reciprocal * NEAR_PAD,
-            far_reciprocal: reciprocal * FAR_PAD,
             t_min,
             t_max,
             shear: Shear::new(direction),
+            slabs: SlabLanes {
+                origin: in_lanes(origin, -1.0),
+                near_reciprocal: in_lanes(reciprocal * NEAR_PAD, f32::NEG_INFINITY),
+                far_reciprocal: in_lanes(reciprocal * FAR_PAD, f32::INFINITY),
+            },
         })
     }
 
@@ -119,14 +131,14 @@ impl PreparedRay {
     /// the factor 1 - 2 gamma(3).
     #[inline]
     pub fn near_reciprocal(&self) -> Vec3 {
-        self.near_reciprocal
+        of_lanes(self.slabs.near_reciprocal)
     }
 
     /// The reciprocal to compute where the ray *leaves* a slab with: larger by
     /// the factor 1 + 2 gamma(3).
     #[inline]
     pub fn far_reciprocal(&self) -> Vec3 {
-        self.far_reciprocal
+        of_lanes(self.slabs.far_reciprocal)
     }
 
     /// The smallest `t` of interest, never negative.
@@ -169,13 +181,14 @@ impl PreparedRay {
     /// nested as *computed*.
     #[inline]
     pub fn slab(&self, bounds: &Aabb) -> Interval {
-        let in_lanes = |v: Vec3, spare| F32x4::new(v.x, v.y, v.z, spare);
+        let SlabLanes {
+            origin,
+            near_reciprocal,
+            far_reciprocal,
+        } = self.slabs;
         let (low, high) = (in_lanes(bounds.min, 0.0), in_lanes(bounds.max, 0.0));
-        let near_reciprocal = in_lanes(self.near_reciprocal, f32::NEG_INFINITY);
-        let far_reciprocal = in_lanes(self.far_reciprocal, f32::INFINITY);
         // Without a branch: at a leaf, rays of all directions come by.
         let [entry, exit] = low.exchanged_where_negative(high, near_reciprocal);
-        let origin = in_lanes(self.origin, -1.0);
         let near = (entry - origin) * near_reciprocal;
         let far = (exit - origin) * far_reciprocal;
         // NaN constrains nothing.
@@ -225,6 +238,17 @@ impl Shear {
             along: rotated.z,
         }
     }
+}
+
+#[inline(always)]
+fn in_lanes(v: Vec3, spare: f32) -> F32x4 {
+    F32x4::new(v.x, v.y, v.z, spare)
+}
+
+#[inline(always)]
+fn of_lanes(lanes: F32x4) -> Vec3 {
+    let [x, y, z, _] = lanes.to_array();
+    Vec3::new(x, y, z)
 }
 
 /// One over a component of a direction, where that is as exact as the pads
