@@ -1,9 +1,8 @@
 //! What a subtree may use. Shared out from the root down, by size, so that the
 //! limits hold and the tree is the same for any number of threads.
 
-use accel_core::build::share_by_size;
-
 use accel_core::Polygonal;
+use accel_core::build::share_by_size;
 
 use crate::BspBuilder;
 use crate::builder::BYTES_PER_PIECE;

@@ -108,7 +108,7 @@ impl BspBuilder {
     }
 
     /// BSP-tri, every hit confirmed by the kernel (section 4.3). Takes two to five times
-    /// as long to build as the default.
+    /// as long to build as the default over a mesh, and longer where many triangles overlap.
     ///
     /// C_i is 4 here instead of 1, so that nearly all leaves of a mesh hold one triangle, as
     /// in the paper's Table 3; planes tangent to several triangles are tried, too (section 6.1);

@@ -11,7 +11,6 @@ use accel_core::archive::{
     check_limit, scene_of_slice, scene_of_structure,
 };
 use accel_core::glam::{Vec3, Vec4};
-use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, Polygonal, ValidationError};
 
 use crate::BspTree;
@@ -58,8 +57,7 @@ impl<P: Polygonal> Archive for BspTree<P> {
             let node = self.nodes.node(index);
             pending.extend(node.children().into_iter().rev().flatten());
             if let Some(leaf) = node.leaf_number() {
-                let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
-                archive.push_list(ids.into_iter());
+                archive.push_leaf(self.stored.leaves(), leaf);
             }
         }
         archive.finish()

@@ -12,7 +12,7 @@ use accel_core::archive::{
     Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_scene,
     check_limit, scene_of_slice, scene_of_structure,
 };
-use accel_core::layout::{LeafStorage, StoredPrimitives};
+use accel_core::layout::StoredPrimitives;
 use accel_core::{Aabb, AccelerationStructure, Primitive};
 
 use crate::Bvh;
@@ -46,8 +46,7 @@ impl<P: Primitive> Archive for Bvh<P> {
         for pointer in root.map_or_else(Vec::new, |root| self.depth_first(root)) {
             if let Node::Leaf(offset) = pointer.kind() {
                 let leaf = self.leaf_number(offset);
-                let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
-                archive.push_list(ids.into_iter());
+                archive.push_leaf(self.stored.leaves(), leaf);
             }
         }
         archive.finish()

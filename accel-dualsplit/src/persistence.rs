@@ -14,7 +14,6 @@ use accel_core::archive::{
     Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, bounds_of_scene, check_limit,
     scene_of_slice, scene_of_structure,
 };
-use accel_core::layout::LeafStorage;
 use accel_core::{Aabb, AccelerationStructure, Primitive};
 
 use crate::codec::{MAX_OFFSET, MAX_WORDS, Node, NodeWords};
@@ -46,8 +45,7 @@ impl<P: Primitive, N: NodeSet> Archive for PlaneTree<P, N> {
         archive.push_list(self.node_words().iter().copied());
         for position in leaf_positions(self.node_words()) {
             let leaf = self.node(position).target as u32;
-            let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
-            archive.push_list(ids.into_iter());
+            archive.push_leaf(self.stored.leaves(), leaf);
         }
         archive.finish()
     }

@@ -11,7 +11,7 @@ use accel_core::archive::{
     Archive, ArchiveReader, ArchiveWriter, LeafLoader, LoadError, MetOnce, bounds_of_hits,
     bounds_of_scene, check_limit, scene_of_slice, scene_of_structure,
 };
-use accel_core::layout::{LeafStorage, StoredPrimitives};
+use accel_core::layout::StoredPrimitives;
 use accel_core::{Aabb, AccelerationStructure, Clip};
 
 use crate::KdTree;
@@ -50,8 +50,7 @@ impl<P: Clip> Archive for KdTree<P> {
                 NodeKind::Inner { children, .. } => pending.extend([children + 1, children]),
                 NodeKind::Leaf(Leaf::Empty) => {}
                 NodeKind::Leaf(Leaf::Of(leaf)) => {
-                    let ids: Vec<u32> = self.stored.leaves().leaf_ids(leaf).collect();
-                    archive.push_list(ids.into_iter());
+                    archive.push_leaf(self.stored.leaves(), leaf);
                 }
             }
         }

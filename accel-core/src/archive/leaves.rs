@@ -1,10 +1,18 @@
 //! The leaves of a structure in an archive: of each the count and the ids of its
 //! primitives.
 
-use super::{ArchiveReader, LoadError, check_limit};
+use super::{ArchiveReader, ArchiveWriter, LoadError, check_limit};
 use crate::error::ValidationError;
 use crate::layout::{LeafStorage, StoredPrimitives};
 use crate::primitive::Primitive;
+
+impl ArchiveWriter {
+    /// Adds a leaf of a storage: its count of primitives and their ids.
+    pub fn push_leaf<P: Primitive>(&mut self, leaves: &impl LeafStorage<P>, leaf: u32) {
+        let ids: Vec<u32> = leaves.leaf_ids(leaf).collect();
+        self.push_list(ids.into_iter());
+    }
+}
 
 /// Fills a storage from an archive, leaf by leaf. The numbers of leaves are the
 /// storage's own, so an archive holds none.
@@ -93,7 +101,6 @@ impl<'a, P: Primitive> LeafLoader<'a, P> {
 mod tests {
     use super::*;
     use crate::Triangle;
-    use crate::archive::ArchiveWriter;
 
     /// What comes of an archive of these leaves over a triangle and one that is skipped.
     fn load(leaves: &[&[u32]]) -> Result<(), LoadError> {

@@ -1,6 +1,5 @@
 //! Checks of what is saved and loaded.
 
-use std::fmt::Debug;
 use std::io::{self, Write};
 
 use super::damage::damaged_archives;
@@ -67,10 +66,7 @@ pub fn load_damaged<A: Archive>(
     primitives: &[A::Primitive],
     count: usize,
     mut check: impl FnMut(&A),
-) -> [usize; 2]
-where
-    A::Error: Debug,
-{
+) -> [usize; 2] {
     let mut counts = [0; 2];
     for damaged in damaged_archives(&structure.to_bytes(), count) {
         match A::from_bytes(&damaged, primitives) {
