@@ -15,9 +15,10 @@
 //! are visited.
 
 use accel_core::PreparedRay;
-use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
+use accel_core::geometry::rounding::UNIT_ROUNDOFF;
 use accel_core::glam::{DVec4, Vec3, Vec4};
 use accel_core::ray::{max_or_keep, min_or_keep};
+use accel_core::structure::predicted_bit;
 
 use crate::node::{AXES_AND_CLASSES, Node};
 use crate::shared_slacks::SharedSlacks;
@@ -69,10 +70,10 @@ pub(crate) struct Crossings<'a> {
     origin: Vec4,
     /// Likewise the slope.
     direction: Vec4,
-    /// With magnitudes of normal and offset, how far the origin's distance may be
-    /// off, and per unit of `t`, a hit's.
-    rounding_at_origin: Vec4,
-    rounding_along: Vec4,
+    /// With magnitudes of normal and offset, how far the distance of a hit may be off
+    /// that lies no farther than the ray's part in the scene. Taken anew for each node,
+    /// it would be less, and each crossing would wait for the one before.
+    rounding: Vec4,
     /// Of general planes; NaN where distances from them could overflow.
     slack: f32,
 }
@@ -87,39 +88,40 @@ struct AxisCrossings {
     exit_origins: [f32; AXES_AND_CLASSES],
     entry_reciprocals: [f32; AXES_AND_CLASSES],
     exit_reciprocals: [f32; AXES_AND_CLASSES],
-    /// 0 if the ray is behind planes first, 1 if in front of them.
-    near_children: [u32; AXES_AND_CLASSES],
+    /// A bit for each, set where the ray is in front of planes first. Which child to go
+    /// to next waits for it, and a register is nearer than a table.
+    is_in_front_first: u32,
 }
 
 impl AxisCrossings {
     #[inline]
     fn new(ray: &PreparedRay, slacks: SharedSlacks, tolerance: Tolerance) -> Self {
         let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
-        let (origin, reciprocal) = (ray.origin().extend(0.0), ray.reciprocal().extend(1.0));
-        let moved_by = |slack: f32, sign: f32| {
-            // With what moving the origin rounds.
-            let slack = Vec4::splat(slack * tolerance.slack)
-                + origin.abs() * (MOVED_ORIGIN * tolerance.rounding);
-            let moved = origin + sign * slack.copysign(reciprocal);
-            // Beyond all numbers nothing can be told of a side, and NaN visits both.
-            moved + moved * 0.0
-        };
-        let both = |sign| twice(moved_by(slacks.small, sign), moved_by(slacks.large, sign));
-        let scaled = |share| twice(reciprocal * share, reciprocal * share);
-        let [x, y, z] = Axis::ALL.map(|axis| u32::from(ray.is_negative(axis)));
+        let origin = Vec4::from(ray.origin_in_lanes());
+        let reciprocal = Vec4::from(ray.reciprocal_in_lanes());
+        // With what moving the origin rounds.
+        let rounding = origin.abs() * (MOVED_ORIGIN * tolerance.rounding);
+        let distance = |slack: f32| Vec4::splat(slack * tolerance.slack) + rounding;
+        let distances = [slacks.small, slacks.large].map(distance);
+        let farthest = distances[1];
+        // Beyond all numbers nothing can be told of a side, and NaN visits both.
+        let reciprocal = reciprocal + (origin.abs() + farthest) * 0.0;
+        let forwards = distances.map(|distance| distance.copysign(reciprocal));
+        let negative = reciprocal.is_negative_bitmask();
+        let scaled = |share| in_both_classes([reciprocal * share; 2]);
         Self {
-            entry_origins: both(1.0),
-            exit_origins: both(-1.0),
+            entry_origins: in_both_classes(forwards.map(|forwards| origin + forwards)),
+            exit_origins: in_both_classes(forwards.map(|forwards| origin - forwards)),
             entry_reciprocals: scaled(1.0 - along_the_ray),
             exit_reciprocals: scaled(1.0 + along_the_ray),
-            near_children: [x, y, z, 0, x, y, z, 0],
+            is_in_front_first: negative | negative << 4,
         }
     }
 }
 
 /// What is looked up for planes of small slack, and of large.
 #[inline]
-fn twice(small: Vec4, large: Vec4) -> [f32; AXES_AND_CLASSES] {
+fn in_both_classes([small, large]: [Vec4; 2]) -> [f32; AXES_AND_CLASSES] {
     let mut both = [0.0; AXES_AND_CLASSES];
     small.write_to_slice(&mut both[..4]);
     large.write_to_slice(&mut both[4..]);
@@ -160,25 +162,28 @@ pub(crate) struct GeneralCrossing {
 }
 
 impl<'a> Crossings<'a> {
-    /// For a tree whose planes have these limits.
+    /// For a tree whose planes have these limits, and hits up to `far`.
     #[inline]
-    pub(crate) fn new(ray: &'a PreparedRay, limits: PlaneLimits, tolerance: Tolerance) -> Self {
-        let (origin, direction) = (ray.origin(), ray.direction());
-        let along_the_ray = ALONG_THE_RAY * tolerance.rounding;
-        let at_the_origin = AT_THE_ORIGIN * tolerance.rounding;
-        let magnitudes = (origin.abs() + direction.abs()).extend(1.0);
+    pub(crate) fn new(
+        ray: &'a PreparedRay,
+        far: f32,
+        limits: PlaneLimits,
+        tolerance: Tolerance,
+    ) -> Self {
+        let origin = Vec4::from(ray.origin_in_lanes());
+        let direction = Vec4::from(ray.direction_in_lanes());
+        let magnitudes = origin.abs() + direction.abs();
         let may_overflow = !(2.0 * limits.general.dot(magnitudes)).is_finite();
+        let least = least_rounding(ray.largest_component()) * tolerance.rounding;
+        let at_origin = origin.abs() * (AT_THE_ORIGIN * tolerance.rounding);
+        let along = direction.abs() * (ALONG_THE_RAY * tolerance.rounding);
+        let along = along.max(Vec3::splat(least).extend(0.0));
         Self {
             ray,
             axes: AxisCrossings::new(ray, limits.slacks, tolerance),
-            origin: origin.extend(-1.0),
-            direction: direction.extend(0.0),
-            rounding_at_origin: origin.abs().extend(1.0) * at_the_origin,
-            rounding_along: (direction.abs() * along_the_ray)
-                .max(Vec3::splat(
-                    least_rounding(direction.abs().max_element()) * tolerance.rounding,
-                ))
-                .extend(0.0),
+            origin,
+            direction,
+            rounding: at_origin + along * far.min(f32::MAX),
             slack: if may_overflow {
                 f32::NAN
             } else {
@@ -192,8 +197,8 @@ impl<'a> Crossings<'a> {
     #[inline]
     pub(crate) fn axis_aligned(&self, node: &Node, interval: Interval) -> Sides {
         let (axes, index) = (&self.axes, node.axis_and_class());
-        let nearer = axes.near_children[index];
         let position = node.position();
+        let nearer = axes.is_in_front_first >> index & 1;
         let exit = (position - axes.exit_origins[index]) * axes.exit_reciprocals[index];
         if exit < interval.near {
             return Sides::One(1 - nearer);
@@ -211,12 +216,11 @@ impl<'a> Crossings<'a> {
 
     /// Of a general plane, its offset behind its normal.
     #[inline]
-    pub(crate) fn general(&self, plane: Vec4, far: f32) -> GeneralCrossing {
-        let rounding = self.rounding_at_origin + self.rounding_along * far;
+    pub(crate) fn general(&self, plane: Vec4) -> GeneralCrossing {
         GeneralCrossing {
             start: plane.dot(self.origin),
             slope: plane.dot(self.direction),
-            tau: self.slack + plane.abs().dot(rounding),
+            tau: self.slack + plane.abs().dot(self.rounding),
         }
     }
 
@@ -254,7 +258,7 @@ impl GeneralCrossing {
         let start = self.start * 1.0_f32.copysign(self.slope);
         let reciprocal = 1.0 / self.slope.abs();
         Sides::Both {
-            nearer: u32::from(self.slope.is_sign_negative()),
+            nearer: predicted_bit(self.slope < 0.0),
             exit: (self.tau - start) * reciprocal,
             entry: (-self.tau - start) * reciprocal,
         }

@@ -72,6 +72,10 @@ impl<P: Polygonal> Archive for BspTree<P> {
             small: slack(&mut archive)?,
             large: slack(&mut archive)?,
         };
+        if slacks.small > slacks.large {
+            let bits = slacks.small.to_bits().into();
+            return meaningless("a small slack above the large one, of bits", bits);
+        }
         let plane_count = archive.count(4)?;
         let planes = (0..plane_count).map(|_| read_plane(&mut archive));
         let planes = planes.collect::<Result<_, _>>()?;

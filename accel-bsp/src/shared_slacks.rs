@@ -15,6 +15,7 @@ const MOST_EXCESS: usize = 4;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SharedSlacks {
     pub small: f32,
+    /// No less than `small`.
     pub large: f32,
 }
 

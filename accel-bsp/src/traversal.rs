@@ -58,7 +58,7 @@ pub(crate) fn traverse<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalSta
         far: min_or_keep(query.t_max(), whole.far),
     };
     if part.near <= part.far {
-        let crossings = Crossings::new(ray, tree.plane_limits(), tolerance);
+        let crossings = Crossings::new(ray, part.far, tree.plane_limits(), tolerance);
         let _ = traverse_below::<P, T, Q, S>(tree, part, &crossings, query, statistics);
     }
 }
@@ -131,7 +131,7 @@ fn descend<T: PlaneTracking, S: TraversalStatistics>(
     statistics.test_planes(1);
     let sides = if node.is_general() {
         statistics.visit_node(StatisticsKind::General, bytes_of(node));
-        let crossing = crossings.general(nodes.plane(node.plane_number()), interval.far);
+        let crossing = crossings.general(nodes.plane(node.plane_number()));
         crossing.sides(interval)
     } else {
         statistics.visit_node(StatisticsKind::Inner, bytes_of(node));
@@ -199,9 +199,8 @@ fn test_leaf<P: Primitive, T: PlaneTracking, Q: Query, S: TraversalStatistics>(
     let leaf = match node.kind() {
         NodeKind::PlanarLeaf { plane, leaf } => {
             statistics.test_planes(1);
-            let interval = segment.interval;
-            let crossing = crossings.general(tree.nodes.plane(plane), interval.far);
-            if !crossing.meets(interval) {
+            let crossing = crossings.general(tree.nodes.plane(plane));
+            if !crossing.meets(segment.interval) {
                 return ControlFlow::Continue(());
             }
             leaf

@@ -45,10 +45,10 @@ impl<P: Primitive> CellTree for KdTree<P> {
         let node = self.nodes[visit.node as usize];
         statistics.visit_node(NodeKind::Inner, NODE_BYTES as u32);
         statistics.test_planes(1);
-        let crossing = &vector.axes[node.axis_index()];
-        let [entry, exit] = crossing.lanes_at(node.position());
+        let axis = node.axis_index();
+        let [entry, exit] = vector.axes[axis].lanes_at(node.position());
         Division {
-            children: crossing.children(node.index()),
+            children: vector.near_children.of(axis, node.index()),
             entry,
             exit,
         }

@@ -76,9 +76,9 @@ pub(crate) fn traverse_below<P: Primitive, Q: Query, S: TraversalStatistics>(
         let Some(leaf) = node.as_leaf() else {
             statistics.visit_node(NodeKind::Inner, NODE_BYTES as u32);
             statistics.test_planes(1);
-            let crossing = &crossings.axes[node.axis_index()];
-            let [entry, exit] = crossing.at(node.position());
-            let [near_child, far_child] = crossing.children(node.index());
+            let axis = node.axis_index();
+            let [entry, exit] = crossings.axes[axis].at(node.position());
+            let [near_child, far_child] = crossings.near_children.of(axis, node.index());
             if exit < segment.near {
                 segment.node = far_child;
                 continue;

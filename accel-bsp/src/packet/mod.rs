@@ -110,7 +110,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
         query: &mut Q,
         statistics: &mut S,
     ) -> ControlFlow<()> {
-        let crossings = Crossings::new(ray, self.plane_limits(), Tolerance::SAFE);
+        let crossings = Crossings::new(ray, part.far, self.plane_limits(), Tolerance::SAFE);
         traverse_below::<P, Untracked, Q, S>(self, part, &crossings, query, statistics)
     }
 }

@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Axis, DAabb};
+use super::{Axis, DAabb, GrowingBox};
+use crate::simd::F32x4;
 
 /// An axis-aligned bounding box: all points between `min` and `max`, faces
 /// included.
@@ -40,14 +41,19 @@ impl Aabb {
     /// not finite, [`EMPTY`](Self::EMPTY) if there are none.
     #[inline]
     pub fn around(points: &[Vec3]) -> Self {
-        let mut bounds = Self::EMPTY;
+        let mut bounds = GrowingBox::empty();
+        let mut zero = F32x4::splat(0.0);
         for &point in points {
-            if !point.is_finite() {
-                return Self::INVALID;
-            }
-            bounds = bounds.grown_to(point);
+            let point = F32x4::of_axes(point, 0.0);
+            bounds.add_lanes(point);
+            // NaN for what is not finite, which stays.
+            zero = zero * point;
         }
-        bounds
+        if zero.is_finite() {
+            bounds.bounds()
+        } else {
+            Self::INVALID
+        }
     }
 
     /// Whether the box is finite and holds at least one point.
@@ -176,13 +182,17 @@ impl Aabb {
         const RELATIVE_STEP: f32 = 1.0 / (1 << 23) as f32;
         // Where a relative step would vanish: some subnormal units.
         const SMALLEST_STEP: f32 = f32::from_bits(4);
-        let pad = (self.max - self.min).max_element() * RELATIVE_PAD;
-        let (low, high) = (self.min - pad, self.max + pad);
-        let step = |plane: Vec3| plane.abs() * RELATIVE_STEP + SMALLEST_STEP;
+        let (low, high) = (F32x4::of_axes(self.min, 0.0), F32x4::of_axes(self.max, 0.0));
+        let pad = F32x4::splat((high - low).largest() * RELATIVE_PAD);
+        let (low, high) = (low - pad, high + pad);
+        let step =
+            |plane: F32x4| plane.abs() * F32x4::splat(RELATIVE_STEP) + F32x4::splat(SMALLEST_STEP);
         // Steps from and to infinity are not numbers; the limits replace them.
+        let lowest = F32x4::splat(-f32::MAX);
+        let highest = F32x4::splat(f32::MAX);
         Self {
-            min: larger(Vec3::splat(-f32::MAX), low - step(low)),
-            max: smaller(Vec3::splat(f32::MAX), high + step(high)),
+            min: lowest.max_or_keep(low - step(low)).axes(),
+            max: highest.min_or_keep(high + step(high)).axes(),
         }
     }
 

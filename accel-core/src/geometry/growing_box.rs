@@ -69,13 +69,9 @@ impl GrowingBox {
     /// The box.
     #[inline]
     pub fn bounds(&self) -> Aabb {
-        let corner = |lanes: F32x4| {
-            let [x, y, z, _] = lanes.to_array();
-            Vec3::new(x, y, z)
-        };
         Aabb {
-            min: corner(self.low),
-            max: corner(self.high),
+            min: self.low.axes(),
+            max: self.high.axes(),
         }
     }
 }

@@ -7,8 +7,8 @@ use crate::geometry::Aabb;
 use crate::primitive::{Intersection, LaneIntersections, Primitive};
 use crate::query::{Hit, Query};
 use crate::ray::packet::lanes_of;
-use crate::ray::{PacketVector, PreparedRay};
-use crate::simd::Lanes;
+use crate::ray::{PacketVector, PreparedRay, max_or_keep, min_or_keep};
+use crate::simd::{F32x4, Lanes};
 
 /// Intersects `primitive` and offers the hit, if there is one: the body of every
 /// leaf's loop.
@@ -97,11 +97,11 @@ pub fn offer_intersection<Q: Query>(
 ) -> ControlFlow<()> {
     let Intersection { t, u, v } = intersection;
     let gate = ray.slab(&bounds.gate());
-    let is_finite = t.is_finite() && u.is_finite() && v.is_finite();
+    let is_finite = F32x4::new(t, u, v, 0.0).is_finite();
     if !is_finite || gate.is_empty() {
         return ControlFlow::Continue(());
     }
-    let t = t.max(gate.near).min(gate.far) + 0.0;
+    let t = min_or_keep(max_or_keep(t, gate.near), gate.far) + 0.0;
     if t >= ray.t_min() && t <= query.t_max() && t.is_finite() {
         query.offer(&Hit { t, u, v, id })
     } else {

@@ -5,31 +5,33 @@ use glam::Vec3;
 
 use super::Ray;
 use crate::geometry::{Aabb, Axis, rounding::gamma};
-use crate::simd::F32x4;
+use crate::simd::{F32x4, Lanes};
 
 /// A ray with reciprocals and shear, ready for box tests and the triangle
 /// kernel.
 ///
 /// It depends on the ray alone, never on a scene: the origin is not moved.
+///
+/// The axes are kept in lanes, since boxes and planes are tested in lanes: a vector
+/// that was written in pieces has to wait until all of them are in the cache.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedRay {
+    /// For the kernel, which takes it axis by axis: out of the lanes, closest hits were
+    /// 0.83 to 0.93 times as fast where a ray makes several tests.
     origin: Vec3,
-    direction: Vec3,
-    reciprocal: Vec3,
+    /// And -1: what a plane's offset is multiplied by.
+    origin_lanes: F32x4,
+    /// And 0.
+    direction: F32x4,
+    /// And infinity.
+    reciprocal: F32x4,
+    /// And minus infinity, here and infinity below: in a box test, where the origin is
+    /// -1, the fourth axis then constrains nothing.
+    near_reciprocal: F32x4,
+    far_reciprocal: F32x4,
     t_min: f32,
     t_max: f32,
     shear: Shear,
-    slabs: SlabLanes,
-}
-
-/// What a box test takes of a ray: the axes in lanes, and a fourth that constrains
-/// nothing. Written as whole vectors, since they are read so at once: a vector that was
-/// written in pieces has to wait until all of them are in the cache.
-#[derive(Clone, Copy, Debug)]
-struct SlabLanes {
-    origin: F32x4,
-    near_reciprocal: F32x4,
-    far_reciprocal: F32x4,
 }
 
 /// The shear that carries the ray's direction onto its main axis (Woop,
@@ -74,36 +76,33 @@ impl PreparedRay {
     // through memory. Up to 1.05 times as fast where little else is to do.
     #[inline(always)]
     pub fn new(ray: &impl Ray) -> Option<Self> {
-        let origin = ray.origin();
+        let origin_lanes = F32x4::of_axes(ray.origin(), -1.0);
         // Adding zero turns -0 into +0: one sign for both zeros.
-        let direction = ray.direction() + Vec3::ZERO;
-        let (t_min, t_max) = (ray.t_min(), ray.t_max());
-        let usable = origin.is_finite() && direction.is_finite() && direction != Vec3::ZERO;
-        if !usable || t_min.is_nan() || t_min == f32::INFINITY {
+        let direction = F32x4::of_axes(ray.direction(), 0.0) + F32x4::splat(0.0);
+        let largest = direction.abs().largest();
+        let is_usable = origin_lanes.is_finite() && direction.is_finite() && largest > 0.0;
+        let t_min = ray.t_min();
+        if !is_usable || t_min.is_nan() || t_min == f32::INFINITY {
             return None;
         }
         let t_min = if t_min > 0.0 { t_min } else { 0.0 };
+        let t_max = ray.t_max();
         // False for a NaN bound as well.
         let has_interval = t_min <= t_max;
-        let smallest = direction.abs().max_element() * SMALLEST_RATIO;
-        let components = direction.to_array();
-        let reciprocal =
-            Vec3::from_array(components.map(|component| usable_reciprocal(component, smallest)));
         if !has_interval {
             return None;
         }
+        let reciprocal = usable_reciprocals(direction, largest * SMALLEST_RATIO);
         Some(Self {
-            origin,
+            origin: ray.origin(),
+            origin_lanes,
             direction,
             reciprocal,
+            near_reciprocal: reciprocal * F32x4::of_axes(Vec3::splat(NEAR_PAD), -1.0),
+            far_reciprocal: reciprocal * F32x4::of_axes(Vec3::splat(FAR_PAD), 1.0),
             t_min,
             t_max,
-            shear: Shear::new(direction),
-            slabs: SlabLanes {
-                origin: in_lanes(origin, -1.0),
-                near_reciprocal: in_lanes(reciprocal * NEAR_PAD, f32::NEG_INFINITY),
-                far_reciprocal: in_lanes(reciprocal * FAR_PAD, f32::INFINITY),
-            },
+            shear: Shear::new(direction.axes()),
         })
     }
 
@@ -116,7 +115,26 @@ impl PreparedRay {
     /// Its direction, without negative zeros.
     #[inline]
     pub fn direction(&self) -> Vec3 {
+        self.direction.axes()
+    }
+
+    /// The origin and -1: with a plane's normal and offset in lanes, their products are
+    /// summands of its signed distance.
+    #[inline]
+    pub fn origin_in_lanes(&self) -> F32x4 {
+        self.origin_lanes
+    }
+
+    /// The direction and 0.
+    #[inline]
+    pub fn direction_in_lanes(&self) -> F32x4 {
         self.direction
+    }
+
+    /// The largest magnitude of the direction's components.
+    #[inline]
+    pub fn largest_component(&self) -> f32 {
+        self.shear.along.abs()
     }
 
     /// One over the direction, infinite where a component is zero. Its sign is
@@ -124,6 +142,12 @@ impl PreparedRay {
     /// the largest one, is no normal number: such an axis constrains nothing.
     #[inline]
     pub fn reciprocal(&self) -> Vec3 {
+        self.reciprocal.axes()
+    }
+
+    /// The same, and infinity.
+    #[inline]
+    pub fn reciprocal_in_lanes(&self) -> F32x4 {
         self.reciprocal
     }
 
@@ -131,14 +155,14 @@ impl PreparedRay {
     /// the factor 1 - 2 gamma(3).
     #[inline]
     pub fn near_reciprocal(&self) -> Vec3 {
-        of_lanes(self.slabs.near_reciprocal)
+        self.near_reciprocal.axes()
     }
 
     /// The reciprocal to compute where the ray *leaves* a slab with: larger by
     /// the factor 1 + 2 gamma(3).
     #[inline]
     pub fn far_reciprocal(&self) -> Vec3 {
-        of_lanes(self.slabs.far_reciprocal)
+        self.far_reciprocal.axes()
     }
 
     /// The smallest `t` of interest, never negative.
@@ -156,13 +180,13 @@ impl PreparedRay {
     /// Whether the direction is negative on `axis`.
     #[inline]
     pub fn is_negative(&self, axis: Axis) -> bool {
-        axis.of(self.reciprocal) < 0.0
+        axis.of(self.reciprocal()) < 0.0
     }
 
     /// The point at parameter `t`.
     #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
-        self.origin + self.direction * t
+        self.origin() + self.direction() * t
     }
 
     #[inline]
@@ -181,24 +205,20 @@ impl PreparedRay {
     /// nested as *computed*.
     #[inline]
     pub fn slab(&self, bounds: &Aabb) -> Interval {
-        let SlabLanes {
-            origin,
-            near_reciprocal,
-            far_reciprocal,
-        } = self.slabs;
-        let (low, high) = (in_lanes(bounds.min, 0.0), in_lanes(bounds.max, 0.0));
+        let (low, high) = (
+            F32x4::of_axes(bounds.min, 0.0),
+            F32x4::of_axes(bounds.max, 0.0),
+        );
         // Without a branch: at a leaf, rays of all directions come by.
-        let [entry, exit] = low.exchanged_where_negative(high, near_reciprocal);
-        let near = (entry - origin) * near_reciprocal;
-        let far = (exit - origin) * far_reciprocal;
+        let [entry, exit] = low.exchanged_where_negative(high, self.near_reciprocal);
+        let near = (entry - self.origin_lanes) * self.near_reciprocal;
+        let far = (exit - self.origin_lanes) * self.far_reciprocal;
         // NaN constrains nothing.
         let near = F32x4::splat(f32::NEG_INFINITY).max_or_keep(near);
         let far = F32x4::splat(f32::INFINITY).min_or_keep(far);
-        let [near, near_y] = near.max_or_keep(near.high()).first_two();
-        let [far, far_y] = far.min_or_keep(far.high()).first_two();
         Interval {
-            near: max_or_keep(near, near_y),
-            far: min_or_keep(far, far_y),
+            near: near.largest(),
+            far: far.smallest(),
         }
     }
 
@@ -207,7 +227,7 @@ impl PreparedRay {
     /// is too small or too large to tell.
     #[inline]
     pub fn plane_distance(&self, axis: Axis, position: f32) -> f32 {
-        (position - axis.of(self.origin)) * axis.of(self.reciprocal)
+        (position - axis.of(self.origin())) * axis.of(self.reciprocal())
     }
 }
 
@@ -216,7 +236,7 @@ impl Ray for PreparedRay {
         self.origin
     }
     fn direction(&self) -> Vec3 {
-        self.direction
+        self.direction.axes()
     }
     fn t_min(&self) -> f32 {
         self.t_min
@@ -240,15 +260,22 @@ impl Shear {
     }
 }
 
+/// As [`usable_reciprocal`], of all lanes; they are all usable, as a rule.
 #[inline(always)]
-fn in_lanes(v: Vec3, spare: f32) -> F32x4 {
-    F32x4::new(v.x, v.y, v.z, spare)
-}
-
-#[inline(always)]
-fn of_lanes(lanes: F32x4) -> Vec3 {
-    let [x, y, z, _] = lanes.to_array();
-    Vec3::new(x, y, z)
+fn usable_reciprocals(direction: F32x4, smallest: f32) -> F32x4 {
+    let reciprocal = F32x4::splat(1.0) / direction;
+    let (component, magnitude) = (direction.abs(), reciprocal.abs());
+    let is_exact = F32x4::splat(f32::MIN_POSITIVE).le_mask(magnitude)
+        & magnitude.le_mask(F32x4::splat(LARGEST_RECIPROCAL))
+        & F32x4::splat(smallest).le_mask(component);
+    let is_zero = component.le_mask(F32x4::splat(0.0));
+    if is_exact | is_zero == F32x4::ALL {
+        return reciprocal;
+    }
+    let [x, y, z, w] = direction
+        .to_array()
+        .map(|component| usable_reciprocal(component, smallest));
+    F32x4::new(x, y, z, w)
 }
 
 /// One over a component of a direction, where that is as exact as the pads
@@ -372,6 +399,30 @@ mod tests {
             let ray = RaySegment::new([0.0; 3], [0.0, 0.0, component]);
             let interval = PreparedRay::new(&ray).unwrap().slab(&bounds);
             assert!(interval.near <= t && t <= interval.far, "{interval:?}");
+        }
+    }
+
+    #[test]
+    fn reciprocals_in_lanes_are_those_of_each_component() {
+        let values = [
+            0.0, -0.0, 1.0, -2.0, 1e-40, -1e-39, 3e38, -2e38, 1e-30, 5e-37,
+        ];
+        for x in values {
+            for y in values {
+                let direction = Vec3::new(x, y, 1.0);
+                let ray = PreparedRay::new(&(Vec3::ONE, direction)).unwrap();
+                let largest = direction.abs().max_element();
+                assert_eq!(ray.largest_component(), largest);
+                let expected = (direction + Vec3::ZERO).to_array();
+                let expected = expected
+                    .map(|component| usable_reciprocal(component, largest * SMALLEST_RATIO));
+                let bits = |reciprocals: [f32; 3]| reciprocals.map(f32::to_bits);
+                assert_eq!(
+                    bits(ray.reciprocal().to_array()),
+                    bits(expected),
+                    "{direction}"
+                );
+            }
         }
     }
 

@@ -4,8 +4,11 @@
 //! default build uses them without any detection. Elsewhere they are arrays,
 //! with the same results bit for bit.
 
+use glam::{Vec3, Vec4};
+
 use super::doubles::F64x2;
 use super::{Lanes, PairOfDoubles};
+use crate::ray::{max_or_keep, min_or_keep};
 
 /// Four `f32`. Operations are lane by lane, in IEEE single precision.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +28,19 @@ impl F32x4 {
         Self::new(value, value, value, value)
     }
 
+    /// The axes of `v`, and `last`.
+    #[inline(always)]
+    pub fn of_axes(v: Vec3, last: f32) -> Self {
+        Self::new(v.x, v.y, v.z, last)
+    }
+
+    /// The first three lanes.
+    #[inline(always)]
+    pub fn axes(self) -> Vec3 {
+        let [x, y, z, _] = self.to_array();
+        Vec3::new(x, y, z)
+    }
+
     /// Lane by lane the larger; the lane of `self` where `other` is NaN.
     #[inline(always)]
     #[must_use]
@@ -37,6 +53,34 @@ impl F32x4 {
     #[must_use]
     pub fn min_or_keep(self, other: Self) -> Self {
         Self(lanes::min_or_keep(self.0, other.0))
+    }
+
+    /// Lane by lane without its sign.
+    #[inline(always)]
+    #[must_use]
+    pub fn abs(self) -> Self {
+        Self(lanes::abs(self.0))
+    }
+
+    /// Whether no lane is infinite or NaN.
+    #[inline(always)]
+    pub fn is_finite(self) -> bool {
+        let zero = Self::splat(0.0);
+        (self * zero).le_mask(zero) == Self::ALL
+    }
+
+    /// The largest lane, none of them NaN.
+    #[inline(always)]
+    pub fn largest(self) -> f32 {
+        let [first, second] = self.max_or_keep(self.high()).first_two();
+        max_or_keep(first, second)
+    }
+
+    /// The smallest lane, none of them NaN.
+    #[inline(always)]
+    pub fn smallest(self) -> f32 {
+        let [first, second] = self.min_or_keep(self.high()).first_two();
+        min_or_keep(first, second)
     }
 
     /// The last two lanes, followed by themselves again.
@@ -127,6 +171,20 @@ impl Lanes for F32x4 {
     }
 }
 
+impl From<Vec4> for F32x4 {
+    #[inline(always)]
+    fn from(lanes: Vec4) -> Self {
+        Self::new(lanes.x, lanes.y, lanes.z, lanes.w)
+    }
+}
+
+impl From<F32x4> for Vec4 {
+    #[inline(always)]
+    fn from(lanes: F32x4) -> Self {
+        Self::from_array(lanes.to_array())
+    }
+}
+
 impl std::ops::Add for F32x4 {
     type Output = Self;
     #[inline(always)]
@@ -205,6 +263,11 @@ mod lanes {
     pub fn min_or_keep(a: Lanes, b: Lanes) -> Lanes {
         // SAFETY: as above.
         unsafe { sse::_mm_min_ps(b, a) }
+    }
+    #[inline(always)]
+    pub fn abs(a: Lanes) -> Lanes {
+        // SAFETY: as above.
+        unsafe { sse::_mm_andnot_ps(sse::_mm_set1_ps(-0.0), a) }
     }
     #[inline(always)]
     pub fn high(a: Lanes) -> Lanes {
@@ -301,6 +364,10 @@ mod lanes {
         zip(a, b, ray::min_or_keep)
     }
     #[inline(always)]
+    pub fn abs(a: Lanes) -> Lanes {
+        a.map(f32::abs)
+    }
+    #[inline(always)]
     pub fn high(a: Lanes) -> Lanes {
         [a[2], a[3], a[2], a[3]]
     }
@@ -382,5 +449,28 @@ mod tests {
         assert_eq!(four.high().first_two(), [3.0, 4.0]);
         assert_eq!(four.to_array(), [1.0, 2.0, 3.0, 4.0]);
         assert_eq!((four * four - F32x4::splat(1.0)).first_two(), [0.0, 3.0]);
+        let mixed = F32x4::of_axes(Vec3::new(-3.0, -0.0, 2.0), -1.0);
+        assert_eq!(
+            mixed.abs().to_array().map(f32::to_bits),
+            [3.0, 0.0, 2.0, 1.0].map(f32::to_bits)
+        );
+        assert_eq!([mixed.largest(), mixed.smallest()], [2.0, -3.0]);
+        assert_eq!(mixed.axes(), Vec3::new(-3.0, 0.0, 2.0));
+        assert_eq!(
+            F32x4::from(Vec4::from(mixed)).to_array(),
+            [-3.0, 0.0, 2.0, -1.0]
+        );
+    }
+
+    #[test]
+    fn a_lane_that_is_not_finite_is_found() {
+        assert!(F32x4::new(0.0, f32::MAX, -f32::MAX, 1e-45).is_finite());
+        for lane in 0..4 {
+            for value in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+                let mut lanes = F32x4::splat(1.0);
+                lanes.lanes_mut()[lane] = value;
+                assert!(!lanes.is_finite(), "{lane} {value}");
+            }
+        }
     }
 }

@@ -22,7 +22,7 @@ pub use cell_packet::{CellTree, CellVisit, Division, RayPart};
 pub use dynamic::DynStructure;
 pub use in_packets::InPackets;
 pub use packet::PacketTraversal;
-pub use predicted::predicted;
+pub use predicted::{predicted, predicted_bit};
 pub use stack::{PacketStack, StackEntry, TraversalStack, WideStack};
 pub use vectors::VectorTraversal;
 

@@ -33,9 +33,26 @@ fn taken<T: Copy>(item: &T) -> T {
     item
 }
 
+/// 1 if `condition` holds and 0 if not, by a jump as [`predicted`]: for conditions that
+/// take long to compute and are often the same.
+#[inline(always)]
+pub fn predicted_bit(condition: bool) -> u32 {
+    // Without them, the compiler computes the bit from the condition.
+    if condition {
+        black_box(1)
+    } else {
+        black_box(0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_condition_is_its_bit() {
+        assert_eq!([true, false].map(predicted_bit), [1, 0]);
+    }
 
     #[test]
     fn every_place_has_its_item() {
