@@ -11,6 +11,8 @@
 //!                                   of the slope and of `t`, in `rounding`
 //! ```
 //!
+//! where `t` is the end of the ray's part in the scene's box, for all nodes.
+//!
 //! Where a distance could overflow, tau is NaN, which constrains nothing: both sides
 //! are visited.
 
@@ -71,8 +73,7 @@ pub(crate) struct Crossings<'a> {
     /// Likewise the slope.
     direction: Vec4,
     /// With magnitudes of normal and offset, how far the distance of a hit may be off
-    /// that lies no farther than the ray's part in the scene. Taken anew for each node,
-    /// it would be less, and each crossing would wait for the one before.
+    /// anywhere on the ray's part in the scene.
     rounding: Vec4,
     /// Of general planes; NaN where distances from them could overflow.
     slack: f32,

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! s0, s1 := signed distances of the interval's ends from the plane
-//! tau    := slack of the plane + rounding of a hit at the far end
+//! tau    := slack of the plane + rounding of the farthest hit in the scene's box
 //! s0, s1 both above tau: front only; both below -tau: back only
 //! otherwise both, the nearer first, each as far as tau over the crossing
 //! ```
