@@ -15,7 +15,7 @@ impl<P: Clip> KdTree<P> {
     /// leaf whose cell holds part of it, one that was skipped stands in none, and
     /// the depth is that recorded. Parts so near to the rim of a cell that rounding may
     /// have placed them beyond it, or in a cell as thin as that, are not looked for. Takes
-    /// as long as a build or several times as long; longer where leaves hold thousands.
+    /// as long as a build or several times as long.
     ///
     /// # Errors
     /// The first [`ValidationError`] found.
@@ -33,20 +33,43 @@ impl<P: Clip> KdTree<P> {
         }
         self.outline()
             .validate_lost(self.primitive_count(), self.skipped_count())?;
+        let references = self.references();
         (0..self.primitive_count() as u32)
             .filter_map(|id| Some((id, self.primitive(id)?)))
-            .try_for_each(|(id, primitive)| self.validate_primitive(id, &primitive))
+            .try_for_each(|(id, primitive)| self.validate_primitive(id, &primitive, &references))
+    }
+
+    /// The ids and leaves of all references, in order.
+    fn references(&self) -> Vec<(u32, u32)> {
+        let leaves = self.nodes.iter().filter_map(|node| match node.as_leaf() {
+            Some(Leaf::Of(leaf)) => Some(leaf),
+            _ => None,
+        });
+        let stored = self.stored.leaves();
+        let of_leaf = |leaf| stored.leaf_ids(leaf).map(move |id| (id, leaf));
+        let mut references: Vec<(u32, u32)> = leaves.flat_map(of_leaf).collect();
+        references.sort_unstable();
+        references
     }
 
     /// Every leaf with part of the primitive well inside references it.
-    fn validate_primitive(&self, id: u32, primitive: &P) -> Result<(), ValidationError> {
+    fn validate_primitive(
+        &self,
+        id: u32,
+        primitive: &P,
+        references: &[(u32, u32)],
+    ) -> Result<(), ValidationError> {
+        let is_held = |leaf| match leaf {
+            Leaf::Empty => false,
+            Leaf::Of(leaf) => references.binary_search(&(id, leaf)).is_ok(),
+        };
         let rim = 2.0 * displacement_of(primitive).max(self.slack.0);
         let mut result = Ok(());
         self.walk(|index, cell, _| {
             let inside = shrunk(cell, rim);
             let is_met = !inside.is_empty() && primitive.clip(&inside).is_some();
             if let (true, Some(leaf)) = (is_met, self.nodes[index as usize].as_leaf())
-                && !self.leaf_holds(leaf, id)
+                && !is_held(leaf)
                 && result.is_ok()
             {
                 let node = index as usize;
@@ -55,13 +78,6 @@ impl<P: Clip> KdTree<P> {
             reaches(cell, primitive)
         });
         result
-    }
-
-    fn leaf_holds(&self, leaf: Leaf, id: u32) -> bool {
-        match leaf {
-            Leaf::Empty => false,
-            Leaf::Of(leaf) => self.stored.leaves().leaf_ids(leaf).any(|held| held == id),
-        }
     }
 }
 
