@@ -64,6 +64,16 @@ pub(crate) struct PlaneLimits {
     pub slacks: SharedSlacks,
 }
 
+impl PlaneLimits {
+    /// Whether a distance from a general plane may overflow, or the speed at which it
+    /// changes, for such an origin and direction; both may be magnitudes, axis by axis.
+    #[inline]
+    pub(crate) fn may_overflow(&self, origin: Vec4, direction: Vec4) -> bool {
+        let magnitudes = origin.abs() + direction.abs();
+        !(2.0 * self.general.dot(magnitudes)).is_finite()
+    }
+}
+
 /// What tells where a ray crosses planes.
 pub(crate) struct Crossings<'a> {
     pub ray: &'a PreparedRay,
@@ -105,10 +115,10 @@ impl AxisCrossings {
         let distance = |slack: f32| Vec4::splat(slack * tolerance.slack) + rounding;
         let distances = [slacks.small, slacks.large].map(distance);
         let farthest = distances[1];
+        let negative = reciprocal.is_negative_bitmask();
         // Beyond all numbers nothing can be told of a side, and NaN visits both.
         let reciprocal = reciprocal + (origin.abs() + farthest) * 0.0;
         let forwards = distances.map(|distance| distance.copysign(reciprocal));
-        let negative = reciprocal.is_negative_bitmask();
         let scaled = |share| in_both_classes([reciprocal * share; 2]);
         Self {
             entry_origins: in_both_classes(forwards.map(|forwards| origin + forwards)),
@@ -173,8 +183,6 @@ impl<'a> Crossings<'a> {
     ) -> Self {
         let origin = Vec4::from(ray.origin_in_lanes());
         let direction = Vec4::from(ray.direction_in_lanes());
-        let magnitudes = origin.abs() + direction.abs();
-        let may_overflow = !(2.0 * limits.general.dot(magnitudes)).is_finite();
         let least = least_rounding(ray.largest_component()) * tolerance.rounding;
         let at_origin = origin.abs() * (AT_THE_ORIGIN * tolerance.rounding);
         let along = direction.abs() * (ALONG_THE_RAY * tolerance.rounding);
@@ -185,7 +193,7 @@ impl<'a> Crossings<'a> {
             origin,
             direction,
             rounding: at_origin + along * far.min(f32::MAX),
-            slack: if may_overflow {
+            slack: if limits.may_overflow(origin, direction) {
                 f32::NAN
             } else {
                 tolerance.slack
@@ -261,7 +269,8 @@ impl GeneralCrossing {
         Sides::Both {
             nearer: predicted_bit(self.slope < 0.0),
             exit: (self.tau - start) * reciprocal,
-            entry: (-self.tau - start) * reciprocal,
+            // Infinite where the slope is too small, at which the entry may yet be finite.
+            entry: (-self.tau - start) * min_or_keep(reciprocal, f32::MAX),
         }
     }
 

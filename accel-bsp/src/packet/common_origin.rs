@@ -18,16 +18,16 @@
 //!
 //! `r` is 32 units of rounding of the speed's terms. A hit is off by up to 16
 //! ([`HIT_ROUNDING`](crate::crossing::HIT_ROUNDING)), `b` by 3, and the quotients by
-//! 4 of themselves, which within the cell is no more than 8 of `b t`. Where a number
-//! overflows, what follows is infinite on the safe side, or NaN, which constrains
-//! nothing.
+//! 4 of themselves, which within the cell is no more than 8 of `b t`. Rays for which `a`
+//! or `b` could overflow are traced one by one. Where tau or a quotient does, what follows
+//! is infinite on the safe side, or NaN, which constrains nothing.
 
 use accel_core::geometry::{Axis, rounding::UNIT_ROUNDOFF};
 use accel_core::glam::{DVec3, Vec3, Vec4};
 use accel_core::simd::Lanes;
 use accel_core::structure::CellVisit;
 
-use crate::crossing::least_rounding;
+use crate::crossing::{PlaneLimits, least_rounding};
 
 /// Bounds the rounding, relative to the terms of the speed.
 const ROUNDING: f64 = 32.0 * UNIT_ROUNDOFF as f64;
@@ -67,14 +67,22 @@ struct Seen {
 }
 
 impl<L: Lanes> CommonOrigin<L> {
+    /// `None` where a distance or a speed could overflow for planes of these limits, or
+    /// one over a speed is no normal number.
     #[inline(always)]
-    pub(super) fn new(origin: Vec3, directions: [L; 3]) -> Self {
+    pub(super) fn new(origin: Vec3, directions: [L; 3], limits: PlaneLimits) -> Option<Self> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let largest = directions.map(|components| {
             let components = components.lanes().iter();
             components.fold(0.0_f32, |most, component| most.max(component.abs()))
         });
-        let least = least_rounding(Vec3::from(largest).max_element());
+        let largest = Vec3::from(largest);
+        let fastest = largest.max_element();
+        let may_overflow = limits.may_overflow(origin.extend(-1.0), largest.extend(0.0));
+        if may_overflow || fastest * f32::MIN_POSITIVE > 1.0 {
+            return None;
+        }
+        let least = least_rounding(fastest);
         let mut rounding = DVec3::ZERO;
         let mut reciprocals = [[zero; 2]; 3];
         for axis in 0..3 {
@@ -84,12 +92,12 @@ impl<L: Lanes> CommonOrigin<L> {
             let speeds = [least.max_or_keep(zero - speed), least.max_or_keep(speed)];
             reciprocals[axis] = [one / speeds[0], one / speeds[1]];
         }
-        Self {
+        Some(Self {
             origin: origin.as_dvec3(),
             directions,
             rounding,
             reciprocals,
-        }
+        })
     }
 
     /// The fast path: no dot product and no division.
@@ -170,6 +178,7 @@ impl<L: Lanes> CrossingLanes<L> {
 mod tests {
     use super::*;
     use crate::crossing::HIT_ROUNDING;
+    use crate::shared_slacks::SharedSlacks;
     use accel_core::simd::F32x4;
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
@@ -230,8 +239,13 @@ mod tests {
             let case = case(&mut random);
             let in_lanes =
                 |axis: usize| F32x4::from_slice(&case.directions.map(|direction| direction[axis]));
-            let rays = CommonOrigin::new(case.origin, [0, 1, 2].map(in_lanes));
-            let crossing = rays.general(case.normal.extend(case.offset), F32x4::splat(case.far));
+            let plane = case.normal.extend(case.offset);
+            let limits = PlaneLimits {
+                general: plane.abs(),
+                slacks: SharedSlacks::default(),
+            };
+            let rays = CommonOrigin::new(case.origin, [0, 1, 2].map(in_lanes), limits).unwrap();
+            let crossing = rays.general(plane, F32x4::splat(case.far));
             for (lane, direction) in case.directions.into_iter().enumerate() {
                 for step in 0..=16 {
                     let t = case.far * step as f32 / 16.0;

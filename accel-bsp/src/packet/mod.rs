@@ -1,7 +1,7 @@
 //! Packets through the BSP tree (Ize 2008, section 4.2). Planes may have any
 //! orientation, so the signs of directions decide no order; a common origin does:
 //! every ray that crosses a plane crosses it from the origin's side. Packets of other
-//! rays are traced ray by ray.
+//! rays, or of numbers so large that they could overflow, are traced ray by ray.
 
 mod common_origin;
 
@@ -31,7 +31,7 @@ impl<P: Primitive> CellTree for BspTree<P> {
     #[inline(always)]
     fn prepare<L: Lanes>(&self, packet: &RayPacket<'_, L, 1>) -> Option<CommonOrigin<L>> {
         let origin = packet.shared().origin?;
-        Some(CommonOrigin::new(origin, packet.lanes(0).direction))
+        CommonOrigin::new(origin, packet.lanes(0).direction, self.plane_limits())
     }
 
     #[inline(always)]

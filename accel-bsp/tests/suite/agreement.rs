@@ -1,7 +1,8 @@
 //! Every variant on every scene family, against brute force: single rays, and packets
 //! of every width at every level of vectors that the machine has.
 
-use accel_bsp::{BspBuilder, CandidatePlanes, InvalidPrimitives, Triangle};
+use accel_bsp::{BspBuilder, CandidatePlanes, InvalidPrimitives, RaySegment, Triangle};
+use accel_core::glam::Vec3;
 use accel_core::testing::agreement::Expected;
 use accel_core::testing::families;
 use accel_core::testing::family_check::{Checked, Effort, check_families};
@@ -108,4 +109,65 @@ fn rays_whose_shear_has_no_digits_left_hit_what_they_must() {
         }
     }
     assert!(hits > 800, "{hits}");
+}
+
+/// Directions so long that the speed at which a ray comes nearer to a plane overflows.
+#[test]
+fn packets_of_the_longest_directions_agree_with_brute_force() {
+    let names = [
+        "closed-icosphere",
+        "figure-in-stadium",
+        "sheet-rotated",
+        "staircase-rotated",
+    ];
+    for name in names {
+        let scene = families::find(name).unwrap().scene(1, 100);
+        let tree = BspBuilder {
+            max_candidates: 400,
+            ..BspBuilder::default()
+        };
+        let tree = tree.build(&scene).unwrap();
+        let [_, _, (_, from_one_origin)] = ray_sets(&scene, 3);
+        for exponent in (92..124).step_by(4) {
+            let scale = 2.0_f32.powi(exponent);
+            let rays = from_one_origin
+                .iter()
+                .map(|ray| RaySegment::new(ray.origin, ray.direction * scale))
+                .filter(|ray| ray.direction.is_finite());
+            let expected = Expected::new(&scene, rays.collect()).unwrap();
+            check_width::<_, 8>(&tree, &expected)
+                .unwrap_or_else(|error| panic!("{name}, 2^{exponent}: {error}"));
+        }
+    }
+}
+
+/// One over the slope of the ray over a plane is infinite there, and yet it crosses it at
+/// a `t` that is finite.
+#[test]
+fn a_ray_along_which_t_is_almost_the_largest_number_finds_its_hit() {
+    let scene = families::find("closed-room-of-strips")
+        .unwrap()
+        .scene(20, 150);
+    let corners = scene.iter().flat_map(Triangle::vertices);
+    let largest = corners.map(|corner| corner.abs().max_element());
+    let scale = f64::from(1 << 28) / f64::from(largest.fold(0.0, f32::max));
+    let scaled = |corner: Vec3| (corner.as_dvec3() * scale).as_vec3();
+    let scene: Vec<Triangle> = scene
+        .iter()
+        .map(|triangle| triangle.vertices().map(scaled).into())
+        .collect();
+    let direction = [4.189407e-35, -2.3207411e-35, -2.3449759e-35];
+    let ray = RaySegment::new([2208923.8, 1786551.4, 8959878.0], direction);
+    let rays = vec![ray, ray.with_interval(0.0, f32::MAX)];
+    let expected = Expected::new(&scene, rays).unwrap();
+    for axis_aligned_nodes in [false, true] {
+        let builder = BspBuilder {
+            epsilon: 1.0 / (1 << 14) as f64,
+            axis_aligned_nodes,
+            ..BspBuilder::default()
+        };
+        let tree = builder.build(&scene).unwrap();
+        let disagreements = expected.disagreements(&tree);
+        assert!(disagreements.is_empty(), "{}", disagreements[0]);
+    }
 }

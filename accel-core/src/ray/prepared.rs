@@ -76,7 +76,8 @@ impl PreparedRay {
     // through memory. Up to 1.05 times as fast where little else is to do.
     #[inline(always)]
     pub fn new(ray: &impl Ray) -> Option<Self> {
-        let origin_lanes = F32x4::of_axes(ray.origin(), -1.0);
+        let origin = ray.origin();
+        let origin_lanes = F32x4::of_axes(origin, -1.0);
         // Adding zero turns -0 into +0: one sign for both zeros.
         let direction = F32x4::of_axes(ray.direction(), 0.0) + F32x4::splat(0.0);
         let largest = direction.abs().largest();
@@ -94,7 +95,7 @@ impl PreparedRay {
         }
         let reciprocal = usable_reciprocals(direction, largest * SMALLEST_RATIO);
         Some(Self {
-            origin: ray.origin(),
+            origin,
             origin_lanes,
             direction,
             reciprocal,
