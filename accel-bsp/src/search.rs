@@ -7,6 +7,7 @@
 //! best by the linear C_BSP, if it beats the leaf; else best by the fixed one
 //! ```
 
+use accel_core::build::join;
 use accel_core::geometry::Axis;
 use accel_core::{BuildObserver, Polygonal};
 
@@ -26,6 +27,12 @@ const LARGEST_SLACK: f64 = 1.0 / 4096.0;
 /// How many candidates are weighed before the observer is asked again whether the build
 /// is cancelled.
 const CANDIDATES_PER_QUESTION: usize = 64;
+
+/// How many planes are made before they are weighed.
+const PLANES_AT_ONCE: usize = 1 << 12;
+
+/// How many tests of planes against pieces are worth a task of their own.
+const TESTS_OF_A_TASK: usize = 1 << 18;
 
 /// A split, and what it costs.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +62,20 @@ impl Splits {
             .filter(worthwhile)
             .or(self.fixed.filter(worthwhile));
         best.into_iter().chain(self.axis_aligned.filter(worthwhile))
+    }
+
+    /// Of these and later ones the best, the earlier of equals.
+    fn keep_cheaper(&mut self, later: Self) {
+        let kinds = [
+            (&mut self.linear, later.linear),
+            (&mut self.fixed, later.fixed),
+            (&mut self.axis_aligned, later.axis_aligned),
+        ];
+        for (best, later) in kinds {
+            if let Some(split) = later {
+                keep_cheaper(best, split);
+            }
+        }
     }
 }
 
@@ -133,13 +154,49 @@ impl<'a, P: Polygonal> Search<'a, P> {
         let primitives = ids.map(|&id| &self.primitives[id as usize]);
         let own = primitives.flat_map(|primitive| planes_of(primitive, local));
         let common = self.builder.candidate_planes.of_neighbors(&neighbors);
-        for plane in own.chain(common) {
-            if !self.takes_candidate() {
+        let mut planes = own.chain(common);
+        loop {
+            let count = self.allowance.candidates.min(PLANES_AT_ONCE);
+            let some: Vec<SplitPlane> = planes.by_ref().take(count).collect();
+            if some.is_empty() {
                 return;
             }
-            if let Some(counts) = hierarchy.count(&plane, |counts| self.may_pay(&plane, counts)) {
-                self.weigh(&plane, counts);
+            self.allowance.candidates -= some.len();
+            self.weigh_each(&some, &hierarchy);
+        }
+    }
+
+    /// Weighs planes, many of them on all cores: the first of the cheapest is kept. What
+    /// is halved follows from the counts, so that the choice is the same for any number
+    /// of threads.
+    fn weigh_each(&mut self, planes: &[SplitPlane], hierarchy: &SphereHierarchy<'_>) {
+        let tests = planes.len().saturating_mul(self.pieces.len());
+        if planes.len() > 1 && tests > TESTS_OF_A_TASK {
+            let (first, second) = planes.split_at(planes.len() / 2);
+            let mut other = self.with_the_same_best();
+            join(
+                || self.weigh_each(first, hierarchy),
+                || other.weigh_each(second, hierarchy),
+            );
+            return self.best.keep_cheaper(other.best);
+        }
+        for planes in planes.chunks(CANDIDATES_PER_QUESTION) {
+            if self.observer.is_cancelled() {
+                return;
             }
+            for plane in planes {
+                let counts = hierarchy.count(plane, |counts| self.may_pay(plane, counts));
+                if let Some(counts) = counts {
+                    self.weigh(plane, counts);
+                }
+            }
+        }
+    }
+
+    fn with_the_same_best(&self) -> Self {
+        Self {
+            distances: Vec::new(),
+            ..*self
         }
     }
 

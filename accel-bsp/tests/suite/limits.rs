@@ -348,19 +348,25 @@ fn a_build_can_be_cancelled() {
     assert_eq!(result.unwrap_err(), BuildError::Cancelled);
 }
 
+/// Of a surface, whose nodes are divided on many cores, and of triangles that all overlap,
+/// where the planes of one node are weighed on many cores.
 #[test]
 fn the_tree_does_not_depend_on_the_number_of_threads() {
-    let triangles = scene(5_000);
-    let in_pool = |threads| -> BspTree<Triangle> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| BspBuilder::default().build(&triangles))
-            .unwrap()
-    };
-    let one = in_pool(1);
-    for threads in [2, 5] {
-        assert!(one.has_same_nodes(&in_pool(threads)), "{threads} threads");
+    let soup = families::find("integer-soup").unwrap().scene(1, 300);
+    for (triangles, builder) in [
+        (scene(5_000), BspBuilder::default()),
+        (soup, BspBuilder::with_planar_leaves()),
+    ] {
+        let in_pool = |threads| -> BspTree<Triangle> {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
+            pool.install(|| builder.build(&triangles)).unwrap()
+        };
+        let one = in_pool(1);
+        for threads in [2, 5] {
+            assert!(one.has_same_nodes(&in_pool(threads)), "{threads} threads");
+        }
     }
 }
