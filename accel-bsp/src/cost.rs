@@ -8,8 +8,8 @@ use accel_core::{BuildError, SurfaceAreaHeuristic};
 pub struct BspCosts {
     /// C_i, the cost of testing a primitive. Finite and above 0. A test of a triangle
     /// takes about as long as a visit of a node, so 1 gives fast trees of most meshes;
-    /// some, scans among them, gain by 0.5. With 4 nearly all leaves hold one triangle, and a tree
-    /// takes about three times the bytes: for primitives whose tests are dear.
+    /// some, scans among them, gain by 0.5. With 4 nearly all leaves hold one triangle,
+    /// and a tree takes about three times the bytes: for primitives whose tests are dear.
     pub intersection: f64,
     /// C_kd, the cost of visiting a node split orthogonally to an axis. Finite
     /// and at least 0.

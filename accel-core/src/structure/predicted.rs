@@ -37,7 +37,7 @@ fn taken<T: Copy>(item: &T) -> T {
 /// take long to compute and are often the same.
 #[inline(always)]
 pub fn predicted_bit(condition: bool) -> u32 {
-    // Without them, the compiler computes the bit from the condition.
+    // Without `black_box`, the compiler computes the bit from the condition.
     if condition {
         black_box(1)
     } else {
